@@ -1,0 +1,17 @@
+# Debian's libsvm-dev has neither a CMake nor a pkg-config file: defines LibSVM::LibSVM.
+include(FindPackageHandleStandardArgs)
+find_path(LibSVM_INCLUDE_DIR libsvm/svm.h)
+find_library(LibSVM_LIBRARY svm)
+if(LibSVM_INCLUDE_DIR)
+  file(STRINGS ${LibSVM_INCLUDE_DIR}/libsvm/svm.h _version REGEX "#define LIBSVM_VERSION [0-9]+")
+  if(_version MATCHES "LIBSVM_VERSION ([0-9])([0-9]+)")
+    set(LibSVM_VERSION ${CMAKE_MATCH_1}.${CMAKE_MATCH_2})
+  endif()
+endif()
+find_package_handle_standard_args(LibSVM REQUIRED_VARS LibSVM_LIBRARY LibSVM_INCLUDE_DIR VERSION_VAR LibSVM_VERSION)
+if(LibSVM_FOUND AND NOT TARGET LibSVM::LibSVM)
+  add_library(LibSVM::LibSVM UNKNOWN IMPORTED)
+  set_target_properties(LibSVM::LibSVM PROPERTIES IMPORTED_LOCATION ${LibSVM_LIBRARY}
+                                                  INTERFACE_INCLUDE_DIRECTORIES ${LibSVM_INCLUDE_DIR})
+endif()
+mark_as_advanced(LibSVM_INCLUDE_DIR LibSVM_LIBRARY)

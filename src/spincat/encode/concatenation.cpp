@@ -1,0 +1,46 @@
+#include <algorithm>
+#include <vector>
+
+#include "spincat/encode/encoding.h"
+#include "spincat/encode/unit_length.h"
+
+namespace spincat {
+namespace {
+
+class ConcatenatedSums final : public Encoding::ObjectSums {
+ public:
+  explicit ConcatenatedSums(std::size_t size) : size_(size) {}
+
+  std::size_t size() const override { return size_; }
+
+  void accumulate(const SpinImageBlock& block, std::span<double> sums) const override {
+    std::ranges::copy(block.images.values(), sums.begin() + block.first * block.images.shape().size());
+  }
+
+  FeatureVector finish(std::span<const double> sums) const override {
+    std::vector<double> values(sums.begin(), sums.end());
+    scale_to_length(values, 1.0);
+    return {{values.begin(), values.end()}, "concatenation"};
+  }
+
+ private:
+  std::size_t size_;
+};
+
+class Concatenation final : public Encoding {
+ public:
+  std::string_view name() const override { return "concatenation"; }
+
+  void check(const SpinImageParams&) const override {}  // any image will do
+
+  std::unique_ptr<ObjectSums> begin(const OrientedPoints&, const OrientedPoints& spin_points,
+                                    const SpinImageParams& params) const override {
+    return std::make_unique<ConcatenatedSums>(spin_points.size() * params.shape().size());
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Encoding> make_concatenation() { return std::make_unique<Concatenation>(); }
+
+}  // namespace spincat

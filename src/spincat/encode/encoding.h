@@ -1,0 +1,68 @@
+// Encodings: how the spin images of an object become one feature vector.
+//
+// Every encoding works in two steps, so that images can be made and forgotten block by block, on any thread or machine:
+// `accumulate` adds what a block of images contributes to a row of sums, and `finish` turns the sums into the feature
+// vector. Sums of blocks are added in the order of the blocks, which makes the result the same wherever they were made.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "spincat/encode/feature_vector.h"
+#include "spincat/geometry/oriented_points.h"
+#include "spincat/spin/spin_images.h"
+
+namespace spincat {
+
+class Encoding {
+ public:
+  virtual ~Encoding() = default;
+
+  // As in settings and model files.
+  virtual std::string_view name() const = 0;
+
+  // Throws InputError when this encoding cannot work on such images.
+  virtual void check(const SpinImageParams& params) const = 0;
+
+  // Called once for an object, before its blocks: what has to be known of all its points. The object must outlive the
+  // result.
+  class ObjectSums;
+  virtual std::unique_ptr<ObjectSums> begin(const OrientedPoints& surface, const OrientedPoints& spin_points,
+                                            const SpinImageParams& params) const = 0;
+};
+
+// The sums of one object on their way to a feature vector.
+class Encoding::ObjectSums {
+ public:
+  virtual ~ObjectSums() = default;
+
+  // How many sums a block's contribution has.
+  virtual std::size_t size() const = 0;
+
+  // Adds the block's contribution to `sums` (size() numbers, zero before the first block). Const: blocks may be
+  // accumulated into separate sums at the same time.
+  virtual void accumulate(const SpinImageBlock& block, std::span<double> sums) const = 0;
+
+  // Deterministic in `sums`.
+  virtual FeatureVector finish(std::span<const double> sums) const = 0;
+};
+
+// The paper's: the rows of each image one after the other, the images one after the other, in the order of the spin
+// points: M W W numbers, scaled to length 1 together.
+std::unique_ptr<Encoding> make_concatenation();
+
+// Our default: each image is reduced to a pyramid of three smaller ones (the inner quarter at full resolution, the inner
+// half and the whole, coarser), square roots are taken, and the mean and the standard deviation of every bin over
+// the spin points of each of four bands is one feature; docs/encoding.md. Needs an image width divisible by 8 in the
+// johnson convention.
+std::unique_ptr<Encoding> make_pooled_pyramid();
+
+// The encoding called `name`. Throws InputError that lists the names when there is none.
+std::unique_ptr<Encoding> make_encoding(std::string_view name);
+const std::vector<std::string>& encoding_names();
+
+}  // namespace spincat

@@ -1,0 +1,163 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "spincat/encode/encoding.h"
+#include "spincat/encode/unit_length.h"
+#include "spincat/error.h"
+
+namespace spincat {
+namespace {
+
+constexpr std::size_t kLevels = 3;  // of the pyramid: single cells, sums of 2 x 2, sums of 4 x 4
+constexpr std::size_t kBands = 4;   // into which the spin points are sorted
+constexpr std::size_t kMoments = 2; // mean and standard deviation
+
+// Which of the four bands each spin point belongs to. With g the mean of the surface points, r = |p - g| and
+// h = |(p - g) . n|: halves by r, then each half into halves by h. Both turn with the object, so that the same place on
+// a turned object stays in the same band.
+std::vector<std::uint8_t> bands_of(const OrientedPoints& surface, const OrientedPoints& spin_points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    sum += surface.position(i).cast<double>();
+  }
+  const Eigen::Vector3d g = sum / static_cast<double>(std::max<std::size_t>(surface.size(), 1));
+  const std::size_t count = spin_points.size();
+  std::vector<double> r(count);
+  std::vector<double> h(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const Eigen::Vector3d d = spin_points.position(k).cast<double>() - g;
+    r[k] = d.norm();
+    h[k] = std::abs(d.dot(spin_points.normal(k).cast<double>()));
+  }
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0U);
+  const std::span<std::uint32_t> all(order);
+  std::ranges::stable_sort(all, {}, [&](std::uint32_t k) { return r[k]; });
+  std::vector<std::uint8_t> bands(count);
+  std::uint8_t band = 0;
+  for (const auto half : {all.first(count / 2), all.subspan(count / 2)}) {
+    std::ranges::stable_sort(half, {}, [&](std::uint32_t k) { return h[k]; });
+    for (const auto quarter : {half.first(half.size() / 2), half.subspan(half.size() / 2)}) {
+      for (const std::uint32_t k : quarter) {
+        bands[k] = band;
+      }
+      ++band;
+    }
+  }
+  return bands;
+}
+
+// Sums, for each level, band, channel and cell, of the square root of the cell and of the cell itself (which is the
+// square of that root): from these the mean and the deviation.
+class PyramidSums final : public Encoding::ObjectSums {
+ public:
+  PyramidSums(const OrientedPoints& surface, const OrientedPoints& spin_points, const SpinImageParams& params)
+      : shape_(params.shape()),
+        cells_(shape_.columns / 4),
+        points_(static_cast<double>(std::max<std::size_t>(surface.size(), 1))),
+        bands_(bands_of(surface, spin_points)) {
+    for (const std::uint8_t band : bands_) {
+      ++images_in_band_[band];
+    }
+  }
+
+  std::size_t size() const override { return kLevels * level_size(); }
+
+  void accumulate(const SpinImageBlock& block, std::span<double> sums) const override {
+    std::vector<float> level_cells(cells_ * cells_);
+    for (std::size_t k = 0; k < block.images.count(); ++k) {
+      const std::uint8_t band = bands_[block.first + k];
+      for (std::size_t level = 0; level < kLevels; ++level) {
+        for (std::size_t channel = 0; channel < shape_.channels; ++channel) {
+          reduce(block.images.image(k).subspan(channel * shape_.rows * shape_.columns), level, level_cells);
+          add_cells(level_cells, sums.subspan(offset(level, band, channel), 2 * cells_ * cells_));
+        }
+      }
+    }
+  }
+
+  FeatureVector finish(std::span<const double> sums) const override {
+    std::vector<double> values(sums.size());
+    const std::size_t bins = cells_ * cells_;
+    for (std::size_t level = 0; level < kLevels; ++level) {
+      for (std::size_t band = 0; band < kBands; ++band) {
+        const double images = static_cast<double>(std::max<std::size_t>(images_in_band_[band], 1));
+        for (std::size_t channel = 0; channel < shape_.channels; ++channel) {
+          const std::size_t at = offset(level, band, channel);
+          for (std::size_t bin = at; bin < at + bins; ++bin) {
+            const double mean = sums[bin] / images;
+            values[bin] = mean;
+            values[bin + bins] = std::sqrt(std::max(0.0, sums[bin + bins] / images - mean * mean));
+          }
+        }
+      }
+      scale_to_length(std::span(values).subspan(level * level_size(), level_size()), 1.0 / std::sqrt(kLevels));
+    }
+    return {{values.begin(), values.end()}, "pooled-pyramid"};
+  }
+
+ private:
+  std::size_t level_size() const { return kBands * shape_.channels * kMoments * cells_ * cells_; }
+
+  std::size_t offset(std::size_t level, std::size_t band, std::size_t channel) const {
+    return level * level_size() + (band * shape_.channels + channel) * kMoments * cells_ * cells_;
+  }
+
+  // The cells_ x cells_ image of a level: sums over 2^level x 2^level bins around alpha = beta = 0.
+  void reduce(std::span<const float> image, std::size_t level, std::span<float> cells) const {
+    const std::size_t edge = std::size_t{1} << level;
+    const std::size_t first_row = (shape_.rows - cells_ * edge) / 2;
+    std::ranges::fill(cells, 0.0F);
+    for (std::size_t row = 0; row < cells_ * edge; ++row) {
+      const float* bins = image.data() + (first_row + row) * shape_.columns;
+      float* into = cells.data() + row / edge * cells_;
+      for (std::size_t column = 0; column < cells_ * edge; ++column) {
+        into[column / edge] += bins[column];
+      }
+    }
+  }
+
+  void add_cells(std::span<const float> cells, std::span<double> sums) const {
+    for (std::size_t bin = 0; bin < cells.size(); ++bin) {
+      const double share = cells[bin] / points_;
+      sums[bin] += std::sqrt(share);
+      sums[bin + cells.size()] += share;
+    }
+  }
+
+  SpinImageShape shape_;
+  std::size_t cells_;  // rows and columns of each level
+  double points_;      // surface points: a bin becomes its share of them
+  std::vector<std::uint8_t> bands_;
+  std::array<std::size_t, kBands> images_in_band_{};
+};
+
+class PooledPyramid final : public Encoding {
+ public:
+  std::string_view name() const override { return "pooled-pyramid"; }
+
+  void check(const SpinImageParams& params) const override {
+    if (params.convention != SpinConvention::johnson || params.image_width % 8 != 0) {
+      throw InputError(fmt::format("the pooled-pyramid encoding needs the johnson convention and an image width "
+                                   "divisible by 8, not {}",
+                                   params.image_width));
+    }
+  }
+
+  std::unique_ptr<ObjectSums> begin(const OrientedPoints& surface, const OrientedPoints& spin_points,
+                                    const SpinImageParams& params) const override {
+    return std::make_unique<PyramidSums>(surface, spin_points, params);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Encoding> make_pooled_pyramid() { return std::make_unique<PooledPyramid>(); }
+
+}  // namespace spincat

@@ -1,0 +1,42 @@
+#include "spincat/judge/ballot.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace spincat {
+
+Ballot count_votes(std::uint32_t categories, std::span<const float> margins) {
+  Ballot ballot;
+  ballot.count.assign(categories, 0);
+  ballot.margin_sum.assign(categories, 0.0F);
+  std::vector<float> weakest(categories, std::numeric_limits<float>::infinity());
+  std::size_t judge = 0;
+  for (std::uint32_t a = 0; a < categories; ++a) {
+    for (std::uint32_t b = a + 1; b < categories; ++b, ++judge) {
+      const Vote vote{a, b, margins[judge]};
+      ballot.votes.push_back(vote);
+      ++ballot.count[vote.choice()];
+      ballot.margin_sum[a] += vote.margin;
+      ballot.margin_sum[b] -= vote.margin;
+      weakest[a] = std::min(weakest[a], vote.margin);
+      weakest[b] = std::min(weakest[b], -vote.margin);
+    }
+  }
+  std::vector<std::uint32_t> order(categories);
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::stable_sort(order, [&](std::uint32_t a, std::uint32_t b) {
+    return ballot.count[a] != ballot.count[b] ? ballot.count[a] > ballot.count[b]
+                                              : ballot.margin_sum[a] > ballot.margin_sum[b];
+  });
+  ballot.winner = order[0];
+  ballot.runner_up = order[1];
+  if (ballot.count[order[0]] == ballot.count[order[1]]) {
+    ballot.tie_break = ballot.margin_sum[order[0]] > ballot.margin_sum[order[1]] ? TieBreak::margins
+                                                                                   : TieBreak::first_one;
+  }
+  ballot.weakest_margin = weakest[ballot.winner];
+  return ballot;
+}
+
+}  // namespace spincat

@@ -1,0 +1,86 @@
+#include "spincat/judge/pairwise_svm.h"
+
+#include <libsvm/svm.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <numeric>
+
+namespace spincat {
+namespace {
+
+struct ModelDeleter {
+  void operator()(svm_model* model) const { svm_free_and_destroy_model(&model); }
+};
+
+// The sub-matrix of some rows in libsvm's layout: for each object a node with its serial number (1, 2, ...), then one
+// node for each kernel value.
+class PrecomputedKernel {
+ public:
+  PrecomputedKernel(const Eigen::MatrixXf& gram, std::span<const std::uint32_t> rows)
+      : nodes_(rows.size() * (rows.size() + 2)), objects_(rows.size()) {
+    const std::size_t n = rows.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      svm_node* node = objects_[i] = nodes_.data() + i * (n + 2);
+      *node++ = {0, static_cast<double>(i + 1)};
+      for (std::size_t j = 0; j < n; ++j) {
+        *node++ = {static_cast<int>(j + 1), gram(rows[j], rows[i])};
+      }
+      *node = {-1, 0.0};
+    }
+  }
+
+  svm_node** objects() { return objects_.data(); }
+
+ private:
+  std::vector<svm_node> nodes_;
+  std::vector<svm_node*> objects_;
+};
+
+svm_parameter parameters(std::span<int, 2> labels, std::span<double, 2> weights) {
+  svm_parameter p{};
+  p.svm_type = C_SVC;
+  p.kernel_type = PRECOMPUTED;
+  p.cache_size = 64.0;  // MB, for the kernel columns that the solver keeps
+  p.eps = 1e-3;
+  p.C = 1.0;  // the whole of C is in the weights
+  p.nr_weight = 2;
+  p.weight_label = labels.data();
+  p.weight = weights.data();
+  p.shrinking = 1;
+  return p;
+}
+
+}  // namespace
+
+PairwiseSvm train_pairwise_svm(const Eigen::MatrixXf& gram, std::span<const std::uint32_t> first,
+                               std::span<const std::uint32_t> second, double c_first, double c_second) {
+  // libsvm writes to standard output unless it is told where else; the library never prints.
+  static const bool quiet = (svm_set_print_string_function([](const char*) {}), true);
+  static_cast<void>(quiet);
+
+  std::vector<std::uint32_t> rows(first.begin(), first.end());
+  rows.insert(rows.end(), second.begin(), second.end());
+  std::vector<double> y(rows.size(), -1.0);
+  std::fill_n(y.begin(), first.size(), 1.0);  // libsvm's sign follows the label that it meets first
+  PrecomputedKernel kernel(gram, rows);
+  std::array<int, 2> labels = {1, -1};
+  std::array<double, 2> weights = {c_first, c_second};
+  const svm_parameter parameter = parameters(labels, weights);
+  const svm_problem problem{static_cast<int>(rows.size()), y.data(), kernel.objects()};
+  const std::unique_ptr<svm_model, ModelDeleter> model(svm_train(&problem, &parameter));
+
+  PairwiseSvm svm;
+  svm.bias = -model->rho[0];
+  std::vector<int> order(model->l);
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, {}, [&](int s) { return rows[model->sv_indices[s] - 1]; });
+  for (const int s : order) {
+    svm.row.push_back(rows[model->sv_indices[s] - 1]);
+    svm.coefficient.push_back(model->sv_coef[0][s]);
+  }
+  return svm;
+}
+
+}  // namespace spincat

@@ -1,0 +1,227 @@
+#include "spincat/prepare/external_surface.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <unordered_map>
+#include <vector>
+
+#include "spincat/prepare/normals.h"
+
+namespace spincat {
+namespace {
+
+constexpr int kPixels = 64;            // rows and columns of the z-buffer
+constexpr double kEyeDistance = 3.0;   // from the origin
+constexpr double kFieldOfView = 42.0;  // degrees; the unit sphere spans 38.9 degrees from there
+constexpr double kCellEdge = 0.04;     // of even_out's cells
+constexpr std::uint32_t kNoFace = std::numeric_limits<std::uint32_t>::max();
+
+// A rotation drawn uniformly from all rotations (Shoemake's unit quaternion from three uniform numbers).
+Eigen::Matrix3d random_rotation(Random& random) {
+  const double u = random.uniform();
+  const double v = 2.0 * std::numbers::pi * random.uniform();
+  const double w = 2.0 * std::numbers::pi * random.uniform();
+  const double a = std::sqrt(1.0 - u);
+  const double b = std::sqrt(u);
+  return Eigen::Quaterniond(a * std::sin(v), a * std::cos(v), b * std::sin(w), b * std::cos(w)).toRotationMatrix();
+}
+
+std::array<Vec3, 20> dodecahedron_corners() {
+  constexpr double kPhi = std::numbers::phi;
+  std::array<Vec3, 20> corners;
+  std::size_t n = 0;
+  for (const double a : {-1.0, 1.0}) {
+    for (const double b : {-1.0, 1.0}) {
+      for (const double c : {-1.0, 1.0}) {
+        corners[n++] = Vec3(a, b, c);
+      }
+      corners[n++] = Vec3(0.0, a / kPhi, b * kPhi);
+      corners[n++] = Vec3(a / kPhi, b * kPhi, 0.0);
+      corners[n++] = Vec3(b * kPhi, 0.0, a / kPhi);
+    }
+  }
+  for (Vec3& corner : corners) {
+    corner.normalize();
+  }
+  return corners;
+}
+
+// A camera at `eye` that looks at the origin. Its frame: x right, y down the image, z forward.
+class Camera {
+ public:
+  explicit Camera(const Vec3& eye) : eye_(eye) {
+    const Vec3 forward = -eye.normalized();
+    const Vec3 helper = std::abs(forward.z()) < 0.9 ? Vec3(0, 0, 1) : Vec3(1, 0, 0);
+    const Vec3 right = forward.cross(helper).normalized();
+    axes_.row(0) = right;
+    axes_.row(1) = forward.cross(right);
+    axes_.row(2) = forward;
+  }
+
+  // Pixel coordinates (pixel (c, r) has its centre at (c + .5, r + .5)), and one over the depth, which is linear over
+  // the image of a plane.
+  Vec3 project(const Vec3& p) const {
+    const Vec3 q = axes_ * (p - eye_);
+    const double inverse_depth = 1.0 / q.z();
+    return {0.5 * kPixels + kFocal * q.x() * inverse_depth, 0.5 * kPixels + kFocal * q.y() * inverse_depth,
+            inverse_depth};
+  }
+
+  Vec3 unproject(int column, int row, double inverse_depth) const {
+    const double depth = 1.0 / inverse_depth;
+    const Vec3 q((column + 0.5 - 0.5 * kPixels) / kFocal * depth, (row + 0.5 - 0.5 * kPixels) / kFocal * depth, depth);
+    return eye_ + axes_.transpose() * q;
+  }
+
+  const Vec3& eye() const { return eye_; }
+
+ private:
+  static inline const double kFocal = 0.5 * kPixels / std::tan(0.5 * kFieldOfView * std::numbers::pi / 180.0);
+  Vec3 eye_;
+  Eigen::Matrix3d axes_;
+};
+
+// What a camera sees: at each pixel the nearest face and one over its depth.
+class DepthBuffer {
+ public:
+  DepthBuffer() { clear(); }
+
+  void clear() {
+    inverse_depth_.fill(0.0);
+    face_.fill(kNoFace);
+  }
+
+  // Draws both sides of a triangle given by its projected corners: every pixel whose centre lies inside or on its edge.
+  void draw(std::uint32_t face, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const int first_column = first_pixel(std::min({a.x(), b.x(), c.x()}));
+    const int last_column = last_pixel(std::max({a.x(), b.x(), c.x()}));
+    const int first_row = first_pixel(std::min({a.y(), b.y(), c.y()}));
+    const int last_row = last_pixel(std::max({a.y(), b.y(), c.y()}));
+    if (first_column > last_column || first_row > last_row) {
+      return;
+    }
+    const double twice_area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+    if (twice_area == 0.0) {
+      return;
+    }
+    const double scale = 1.0 / twice_area;  // its sign makes either winding's weights positive inside
+    for (int row = first_row; row <= last_row; ++row) {
+      const double y = row + 0.5;
+      for (int column = first_column; column <= last_column; ++column) {
+        const double x = column + 0.5;
+        const double wb = ((x - a.x()) * (c.y() - a.y()) - (y - a.y()) * (c.x() - a.x())) * scale;
+        const double wc = ((b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x())) * scale;
+        const double wa = 1.0 - wb - wc;
+        if (wa >= 0.0 && wb >= 0.0 && wc >= 0.0) {
+          keep_nearest(face, row * kPixels + column, wa * a.z() + wb * b.z() + wc * c.z());
+        }
+      }
+    }
+  }
+
+  std::uint32_t face(int pixel) const { return face_[pixel]; }
+  double inverse_depth(int pixel) const { return inverse_depth_[pixel]; }
+
+ private:
+  // The range of pixels whose centres lie between two image coordinates, cut to the image.
+  static int first_pixel(double low) { return std::max(0, static_cast<int>(std::ceil(low - 0.5))); }
+  static int last_pixel(double high) { return std::min(kPixels - 1, static_cast<int>(std::floor(high - 0.5))); }
+
+  void keep_nearest(std::uint32_t face, int pixel, double inverse_depth) {
+    if (inverse_depth > inverse_depth_[pixel]) {
+      inverse_depth_[pixel] = inverse_depth;
+      face_[pixel] = face;
+    }
+  }
+
+  std::array<double, kPixels * kPixels> inverse_depth_;
+  std::array<std::uint32_t, kPixels * kPixels> face_;
+};
+
+void collect_visible(const DepthBuffer& buffer, const Camera& camera, const std::vector<Vec3>& unit_normals,
+                     SurfacePoints& points) {
+  for (int row = 0; row < kPixels; ++row) {
+    for (int column = 0; column < kPixels; ++column) {
+      const int pixel = row * kPixels + column;
+      const std::uint32_t face = buffer.face(pixel);
+      if (face == kNoFace) {
+        continue;
+      }
+      const Vec3 p = camera.unproject(column, row, buffer.inverse_depth(pixel));
+      const Vec3& n = unit_normals[face];
+      points.positions.push_back(p);
+      points.normals.push_back((camera.eye() - p).dot(n) < 0.0 ? Vec3(-n) : n);
+    }
+  }
+}
+
+// One number for the cell of `p` and the octant of `n`: 20 bits an axis are plenty for coordinates within a few units.
+std::uint64_t cell_key(const Vec3& p, const Vec3& n) {
+  std::uint64_t key = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto cell = static_cast<std::int64_t>(std::floor(p[axis] / kCellEdge)) + (1 << 19);
+    key = (key << 20) | (static_cast<std::uint64_t>(cell) & 0xFFFFFU);
+    key = (key << 1) | (n[axis] < 0.0 ? 1U : 0U);
+  }
+  return key;
+}
+
+}  // namespace
+
+SurfacePoints external_surface(const Mesh& mesh, Random& random) {
+  std::vector<Vec3> unit_normals = face_area_normals(mesh);
+  for (Vec3& n : unit_normals) {
+    n.normalize();
+  }
+  const Eigen::Matrix3d turn = random_rotation(random);
+  std::vector<Vec3> projected(mesh.vertices.size());
+  DepthBuffer buffer;
+  SurfacePoints points;
+  for (const Vec3& corner : dodecahedron_corners()) {
+    const Camera camera(kEyeDistance * (turn * corner));
+    std::ranges::transform(mesh.vertices, projected.begin(), [&](const Vec3& v) { return camera.project(v); });
+    buffer.clear();
+    for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+      const Triangle& t = mesh.triangles[f];
+      buffer.draw(f, projected[t[0]], projected[t[1]], projected[t[2]]);
+    }
+    collect_visible(buffer, camera, unit_normals, points);
+  }
+  return points;
+}
+
+SurfacePoints even_out(const SurfacePoints& points, std::size_t count, Random& random) {
+  const std::size_t size = points.positions.size();
+  std::unordered_map<std::uint64_t, std::uint32_t> points_in_cell;
+  std::vector<std::uint64_t> keys(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    keys[i] = cell_key(points.positions[i], points.normals[i]);
+    ++points_in_cell[keys[i]];
+  }
+  // Weighted sampling without replacement (Efraimidis and Spirakis): the smallest of exponential waiting times whose
+  // rate is the point's weight, here one over the number of points in its cell.
+  std::vector<double> waiting(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    waiting[i] = -std::log(1.0 - random.uniform()) * points_in_cell[keys[i]];
+  }
+  std::vector<std::uint32_t> order(size);
+  std::iota(order.begin(), order.end(), 0U);
+  const std::size_t kept = std::min(count, size);
+  std::ranges::partial_sort(order, order.begin() + static_cast<std::ptrdiff_t>(kept), [&](auto a, auto b) {
+    return waiting[a] != waiting[b] ? waiting[a] < waiting[b] : a < b;
+  });
+  SurfacePoints drawn;
+  for (std::size_t k = 0; k < kept; ++k) {
+    drawn.positions.push_back(points.positions[order[k]]);
+    drawn.normals.push_back(points.normals[order[k]]);
+  }
+  return drawn;
+}
+
+}  // namespace spincat

@@ -1,0 +1,204 @@
+#include "spincat/prepare/prepare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "spincat/error.h"
+#include "spincat/geometry/random.h"
+#include "spincat/prepare/external_surface.h"
+#include "spincat/prepare/normalise.h"
+#include "spincat/prepare/normals.h"
+#include "spincat/prepare/resolution.h"
+#include "spincat/prepare/surface_samples.h"
+
+namespace spincat {
+namespace {
+
+// What the random numbers of one object are for (derive_seed's purpose).
+enum Purpose : std::uint64_t { kSurface = 1, kStretch = 2 };
+
+// Fewer points than this from outside (objects thinner than a pixel) say too little: all faces are sampled instead.
+constexpr std::size_t kFewestExternalPoints = 64;
+
+void check_range(const char* field, int value, int low, int high) {
+  if (value < low || value > high) {
+    throw InputError(fmt::format("{} {} is out of range ({} to {})", field, value, low, high));
+  }
+}
+
+// The surface found for an object, in a frame of moderate size, before the spin points are chosen.
+struct Surface {
+  SurfacePoints points;
+  double scale = 1.0;       // units of that frame in one unit of the file
+  double resolution = 0.0;  // in units of that frame
+};
+
+void shuffle_points(SurfacePoints& points, Random& random) {
+  for (std::size_t i = points.positions.size(); i > 1; --i) {
+    const std::size_t j = random.below(i);
+    std::swap(points.positions[i - 1], points.positions[j]);
+    std::swap(points.normals[i - 1], points.normals[j]);
+  }
+}
+
+// `mesh` is normalised and has area.
+SurfacePoints mesh_points(const Mesh& mesh, const PrepareSettings& settings, Random& random) {
+  const auto count = static_cast<std::size_t>(settings.points);
+  if (settings.surface == SurfaceKind::vertices) {
+    return {mesh.vertices, vertex_normals(mesh)};
+  }
+  if (settings.surface == SurfaceKind::external) {
+    const SurfacePoints seen = external_surface(mesh, random);
+    if (seen.positions.size() >= kFewestExternalPoints) {
+      return even_out(seen, count, random);
+    }
+  }
+  SurfacePoints samples = surface_samples(mesh, count, random);
+  if (settings.orientation == NormalOrientation::outward) {
+    orient_outwards(samples.positions, samples.normals);
+  }
+  return samples;
+}
+
+// The given normals where they are known, else estimated from the neighbours and oriented.
+std::vector<Vec3> cloud_normals(const PointCloud& cloud, const PrepareSettings& settings) {
+  const auto known = [](const Vec3& n) { return n.allFinite() && n.squaredNorm() > 0.0; };
+  if (!cloud.normals.empty() && std::ranges::all_of(cloud.normals, known)) {
+    std::vector<Vec3> given = cloud.normals;
+    for (Vec3& n : given) {
+      n.normalize();
+    }
+    return given;
+  }
+  std::vector<Vec3> normals = estimated_normals(cloud.points, settings.neighbours);
+  if (cloud.sensor) {
+    orient_towards(cloud.points, *cloud.sensor, normals);
+  } else if (settings.orientation == NormalOrientation::outward) {
+    orient_outwards(cloud.points, normals);
+  }
+  return normals;
+}
+
+// Each point once: the first of those at one place, in the order of the file.
+PointCloud without_repeats(const PointCloud& cloud) {
+  std::vector<std::size_t> order(cloud.points.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    order[i] = i;
+  }
+  const auto key = [&](std::size_t i) {
+    const Vec3& p = cloud.points[i];
+    return std::array{p.x(), p.y(), p.z()};
+  };
+  std::ranges::stable_sort(order, {}, key);
+  const auto repeats = std::ranges::unique(order, {}, key);
+  order.erase(repeats.begin(), repeats.end());
+  std::ranges::sort(order);
+  PointCloud result;
+  result.sensor = cloud.sensor;
+  for (const std::size_t i : order) {
+    result.points.push_back(cloud.points[i]);
+    if (!cloud.normals.empty()) {
+      result.normals.push_back(cloud.normals[i]);
+    }
+  }
+  return result;
+}
+
+Surface cloud_surface(const PointCloud& given, const PrepareSettings& settings, Random& random) {
+  PointCloud cloud = without_repeats(given);
+  const Similarity similarity = unit_similarity(cloud.points);
+  cloud = transformed(cloud, similarity);
+  SurfacePoints points{cloud.points, cloud_normals(cloud, settings)};
+  if (settings.surface != SurfaceKind::vertices) {
+    points = even_out(points, static_cast<std::size_t>(settings.points), random);
+  }
+  return {std::move(points), similarity.factor, cloud_resolution(cloud.points)};
+}
+
+Surface mesh_surface(const Mesh& given, const PrepareSettings& settings, Random& random) {
+  if (given.triangles.empty()) {
+    return cloud_surface({given.vertices, {}, {}}, settings, random);
+  }
+  Mesh mesh = without_unused_vertices(given);
+  const Similarity similarity = unit_similarity(mesh.vertices);
+  mesh = transformed(mesh, similarity);
+  if (!has_area(mesh)) {
+    return cloud_surface({given.vertices, {}, {}}, settings, random);
+  }
+  return {mesh_points(mesh, settings, random), similarity.factor, mesh_resolution(mesh)};
+}
+
+Surface find_surface(const Object& object, const PrepareSettings& settings, Random& random) {
+  if (const auto* mesh = std::get_if<Mesh>(&object)) {
+    return mesh_surface(*mesh, settings, random);
+  }
+  return cloud_surface(std::get<PointCloud>(object), settings, random);
+}
+
+OrientedPoints oriented(const SurfacePoints& points, const Similarity& similarity) {
+  OrientedPoints result(points.positions.size());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    result.set(i, similarity(points.positions[i]).cast<float>(), points.normals[i].cast<float>());
+  }
+  return result;
+}
+
+OrientedPoints choose_spin_points(const SurfacePoints& points, const Similarity& similarity,
+                                  const PrepareSettings& settings, Random& random) {
+  auto count = static_cast<std::size_t>(settings.spin_points);
+  SurfacePoints chosen = points;
+  if (settings.surface == SurfaceKind::vertices) {
+    shuffle_points(chosen, random);
+  } else {
+    count = std::min(count, points.positions.size());  // the draw is in random order already
+  }
+  OrientedPoints result(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = k % chosen.positions.size();
+    result.set(k, similarity(chosen.positions[i]).cast<float>(), chosen.normals[i].cast<float>());
+  }
+  return result;
+}
+
+}  // namespace
+
+void PrepareSettings::validate() const {
+  check_range("number of surface points", points, 1, 10'000'000);
+  check_range("number of spin points", spin_points, 1, 10'000'000);
+  check_range("number of neighbours", neighbours, 3, 1'000);
+}
+
+PreparedObject prepare(const Object& object, const PrepareSettings& settings, std::uint64_t seed) {
+  settings.validate();
+  Random random(derive_seed(seed, kSurface));
+  const Surface surface = find_surface(object, settings, random);
+  // Once more on the points themselves: what was not seen must not decide about size and place.
+  const Similarity similarity = unit_similarity(surface.points.positions);
+  PreparedObject prepared;
+  prepared.surface = oriented(surface.points, similarity);
+  prepared.spin_points = choose_spin_points(surface.points, similarity, settings, random);
+  prepared.scale = surface.scale * similarity.factor;
+  prepared.resolution = surface.resolution * similarity.factor;
+  return prepared;
+}
+
+Object stretched_copy(const Object& object, int copy, double amount, std::uint64_t seed) {
+  if (copy == 0) {
+    return object;
+  }
+  Random random(derive_seed(derive_seed(seed, kStretch), static_cast<std::uint64_t>(copy)));
+  Vec3 factors;
+  for (int axis = 0; axis < 3; ++axis) {
+    factors[axis] = std::exp(random.uniform(-amount, amount));
+  }
+  return std::visit([&](const auto& it) { return Object(stretched(it, factors)); }, object);
+}
+
+}  // namespace spincat

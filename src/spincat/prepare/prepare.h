@@ -1,0 +1,54 @@
+// From an object as a file holds it to the points that spin images are made of and from.
+#pragma once
+
+#include <cstdint>
+
+#include "spincat/geometry/object.h"
+#include "spincat/geometry/oriented_points.h"
+
+namespace spincat {
+
+// Which points stand for the surface of a mesh. (A point cloud is its own surface.)
+enum class SurfaceKind {
+  vertices,  // the vertices with their vertex normals: the paper's way
+  samples,   // points drawn evenly from all faces
+  external,  // points drawn evenly from what can be seen from outside
+};
+
+// How the sign of a normal is chosen where nothing else tells it.
+enum class NormalOrientation {
+  as_given,  // as the faces' winding or the file gives it
+  outward,   // away from the centroid (and always towards the sensor, where a cloud has one)
+};
+
+struct PrepareSettings {
+  SurfaceKind surface = SurfaceKind::external;
+  NormalOrientation orientation = NormalOrientation::outward;
+  int points = 2048;      // surface points, 1 to 10,000,000; SurfaceKind::vertices takes all vertices instead
+  int spin_points = 256;  // M, 1 to 10,000,000
+  int neighbours = 24;    // of a cloud's point, for its normal, 3 to 1,000
+
+  // Throws InputError naming the field, its value and the allowed range.
+  void validate() const;
+};
+
+struct PreparedObject {
+  OrientedPoints surface;      // normalised: centre of the bounding box at 0, furthest point at distance 1
+  OrientedPoints spin_points;  // some of the surface's points, in random order
+  double scale = 1.0;          // prepared units in one unit of the file
+  double resolution = 0.0;     // mesh resolution in prepared units: the median length of the mesh's edges, each edge once
+                               // (Johnson), or the median distance of a cloud's points to their nearest neighbour
+};
+
+// Prepares a mesh or a cloud. Meshes without any area are treated as the cloud of their vertices. Repeated points of a
+// cloud count once. Where an object has fewer points than spin points are asked for, SurfaceKind::vertices repeats them,
+// so that an observation keeps its length (the paper's concatenation needs that), and the other kinds use what is there.
+// Deterministic: the same object, settings and seed give the same points, on any number of threads.
+// Throws InputError (without a file name) when the object has no extent: no points, or all at one place.
+PreparedObject prepare(const Object& object, const PrepareSettings& settings, std::uint64_t seed);
+
+// The training copy number `copy` (1, 2, ...) of an object: each axis stretched by exp(U(-amount, amount)).
+// Copy 0 is the object itself. Deterministic.
+Object stretched_copy(const Object& object, int copy, double amount, std::uint64_t seed);
+
+}  // namespace spincat

@@ -1,0 +1,66 @@
+#include "spincat/prepare/resolution.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "spincat/prepare/point_tree.h"
+
+namespace spincat {
+namespace {
+
+double upper_median(std::vector<double> values) {
+  if (values.empty()) {
+    return 0.0;
+  }
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+}  // namespace
+
+double mesh_resolution(const Mesh& mesh) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      edges.push_back(std::minmax({t[k], t[(k + 1) % 3]}));
+    }
+  }
+  std::ranges::sort(edges);
+  const auto repeated = std::ranges::unique(edges);
+  edges.erase(repeated.begin(), repeated.end());
+  std::vector<double> lengths;
+  lengths.reserve(edges.size());
+  for (const auto& [a, b] : edges) {
+    const double length = (mesh.vertices[a] - mesh.vertices[b]).norm();
+    if (length > 0.0) {
+      lengths.push_back(length);
+    }
+  }
+  return upper_median(std::move(lengths));
+}
+
+double cloud_resolution(std::span<const Vec3> points) {
+  if (points.size() < 2) {
+    return 0.0;
+  }
+  const PointsAdaptor adaptor{points};
+  const PointTree tree(3, adaptor, {10});
+  std::vector<double> distances;
+  distances.reserve(points.size());
+  for (const Vec3& p : points) {
+    std::array<std::uint32_t, 2> found{};
+    std::array<double, 2> squared{};
+    tree.knnSearch(p.data(), 2, found.data(), squared.data());
+    distances.push_back(std::sqrt(squared[1]));
+  }
+  return upper_median(std::move(distances));
+}
+
+}  // namespace spincat

@@ -1,0 +1,43 @@
+#include "spincat/spin/params.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "spincat/error.h"
+
+namespace spincat {
+
+SpinImageShape SpinImageParams::shape() const {
+  const auto w = static_cast<std::size_t>(image_width);
+  if (convention == SpinConvention::pcl) {
+    return {1, w + 1, 2 * w + 1};
+  }
+  return {angle_test == AngleTest::soft ? 2U : 1U, w, w};
+}
+
+void SpinImageParams::validate() const {
+  if (image_width < 1 || image_width > 256) {
+    throw InputError(fmt::format("image width {} is out of range (1 to 256)", image_width));
+  }
+  if (!(bin_size > 0.0) || !std::isfinite(bin_size)) {
+    throw InputError(fmt::format("bin size {} is out of range (above 0)", bin_size));
+  }
+  if (!(support_angle >= 0.0 && support_angle <= 180.0)) {
+    throw InputError(fmt::format("support angle {} is out of range (0 to 180 degrees)", support_angle));
+  }
+  if (convention == SpinConvention::pcl && (binning != Binning::bilinear || angle_test != AngleTest::cutoff)) {
+    throw InputError("the pcl convention knows only bilinear binning and the support angle's cutoff");
+  }
+  if (convention == SpinConvention::pcl && support_angle > 90.0) {
+    throw InputError(fmt::format("support angle {} is out of range (0 to 90 degrees in the pcl convention)",
+                                 support_angle));
+  }
+}
+
+double pcl_bin_size(double search_radius, int image_width) {
+  return search_radius / (image_width * std::numbers::sqrt2);
+}
+
+}  // namespace spincat

@@ -47,8 +47,7 @@ struct PreparedObject {
 // Throws InputError (without a file name) when the object has no extent: no points, or all at one place.
 PreparedObject prepare(const Object& object, const PrepareSettings& settings, std::uint64_t seed);
 
-// The training copy number `copy` (1, 2, ...) of an object: each axis stretched by exp(U(-amount, amount)).
-// Copy 0 is the object itself. Deterministic.
+// The training copy number `copy` of an object: each axis stretched by exp(U(-amount, amount)). Deterministic.
 Object stretched_copy(const Object& object, int copy, double amount, std::uint64_t seed);
 
 }  // namespace spincat

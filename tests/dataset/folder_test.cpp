@@ -69,7 +69,7 @@ TEST(FolderDataset, NeedsTwoCategories) {
   EXPECT_EQ(input_error([&] { read_dataset({dir.path()}); }), name + ": holds no objects (" + expected + ")");
   dir.write("a.off", "");
   EXPECT_EQ(input_error([&] { read_dataset({dir.path()}); }),
-            name + ": holds no objects (" + expected + "; 1 lie outside such sub-folders)");
+            name + ": holds no objects (" + expected + "; objects outside such sub-folders: 1)");
   dir.write("chair/a.off", "");
   EXPECT_EQ(input_error([&] { read_dataset({dir.path()}); }),
             name + ": only one category (chair): two or more are needed");

@@ -51,6 +51,7 @@ class SmallPsb : public testing::Test {
 };
 
 TEST_F(SmallPsb, IsReadAsAFolder) {
+  dir_.write("classification/._train.cla", "not for us");
   const Dataset dataset = read_dataset({dir_.path()}, kFurniture);
   EXPECT_EQ(counts_of(dataset),
             (Counts{{"bed", 2}, {"cabinet", 1}, {"chair", 3}, {"couch", 1}, {"shelf", 1}, {"table", 7}}));

@@ -55,7 +55,8 @@ std::vector<fs::path> classification_files(const fs::path& folder) {
     std::error_code error;
     for (fs::directory_iterator next(folder / "classification", error); !error && next != fs::directory_iterator();
          next.increment(error)) {
-      if (lower_case_extension(next->path()) == ".cla") {
+      const bool is_hidden = next->path().filename().native().starts_with('.');  // "._train.cla" from a Macintosh
+      if (!is_hidden && lower_case_extension(next->path()) == ".cla") {
         files.push_back(next->path());
       }
     }

@@ -80,7 +80,7 @@ class FolderLister {
       }
     }
     if (listing_.objects.empty()) {
-      const std::string found = strays == 0 ? "" : fmt::format("; {} lie outside such sub-folders", strays);
+      const std::string found = strays == 0 ? "" : fmt::format("; objects outside such sub-folders: {}", strays);
       throw InputError(root_.string(), fmt::format("holds no objects ({}{})", kExpected, found));
     }
     return std::move(listing_);

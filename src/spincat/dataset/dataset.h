@@ -57,4 +57,8 @@ struct DatasetOptions {
 // when only one category is left, or when one file is given two categories or two splits.
 Dataset read_dataset(const std::vector<std::filesystem::path>& sources, const DatasetOptions& options = {});
 
+// The part of a data set with an official split that judges may learn from: the objects of the split "train" and those
+// without one, and the categories that have such objects. The whole data set when nothing is marked "train".
+Dataset training_part(const Dataset& dataset);
+
 }  // namespace spincat

@@ -8,13 +8,13 @@
 #include <cstddef>
 
 #include "spincat/error.h"
+#include "spincat/io/magic.h"
 
 namespace spincat {
 namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view kMagic("SPINCAT\x1A", 8);
 constexpr std::size_t kLongestKind = 32;
 constexpr std::size_t kDeepest = 32;
 constexpr std::size_t kChecksumBytes = 4;
@@ -190,7 +190,7 @@ std::string pack_record(std::string_view kind, std::uint32_t version, const json
   std::string payload;
   json::to_cbor(content, payload);
   CborCheck(payload).run();
-  std::string bytes(kMagic);
+  std::string bytes(kFileMagic);
   append_little_endian(bytes, static_cast<std::uint32_t>(kind.size()));
   bytes += kind;
   append_little_endian(bytes, version);
@@ -201,11 +201,11 @@ std::string pack_record(std::string_view kind, std::uint32_t version, const json
 }
 
 json unpack_record(std::string_view bytes, std::string_view kind, std::uint32_t newest_version) {
-  if (!bytes.starts_with(kMagic)) {
+  if (!bytes.starts_with(kFileMagic)) {
     throw InputError("is not a spincat file");
   }
   RecordReader reader(bytes);
-  reader.take(kMagic.size());
+  reader.take(kFileMagic.size());
   check_kind(reader, kind);
   check_version(reader, kind, newest_version);
   const std::string_view payload = reader.take(check_length(reader));

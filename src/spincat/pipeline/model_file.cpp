@@ -12,6 +12,7 @@
 
 #include "spincat/error.h"
 #include "spincat/io/file.h"
+#include "spincat/io/magic.h"
 #include "spincat/io/record_file.h"
 #include "spincat/pipeline/model.h"
 #include "spincat/pipeline/settings_json.h"
@@ -149,7 +150,7 @@ bool is_model_file(const std::filesystem::path& file) {
   std::array<char, 8> first{};
   std::ifstream stream(file, std::ios::binary);
   stream.read(first.data(), first.size());
-  return stream && std::string_view(first.data(), first.size()) == kRecordMagic;
+  return stream && std::string_view(first.data(), first.size()) == kFileMagic;
 }
 
 }  // namespace spincat

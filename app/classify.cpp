@@ -1,3 +1,5 @@
+#include "spincat/pipeline/classify.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +15,6 @@
 #include "spincat/error.h"
 #include "spincat/io/read_object.h"
 #include "spincat/parallel/for_each.h"
-#include "spincat/pipeline/classify.h"
 #include "spincat/report/json.h"
 #include "spincat/report/text.h"
 #include "spincat/report/text_table.h"
@@ -85,9 +86,6 @@ class AnswerPrinter {
     for (const std::string& category : model.categories) {
       category_width_ = std::max(category_width_, text_width(printable(category)));
     }
-    if (!arguments.run.json) {
-      print_row("file", "category", "confidence", "votes", "runner-up", "time");
-    }
   }
 
   void print(const fs::path& file, const Answer& answer) {
@@ -112,6 +110,10 @@ class AnswerPrinter {
 
   void print_text(const fs::path& file, const Classification& c) {
     const StageSeconds& s = c.seconds;
+    if (!head_printed_) {  // not before there is a row: a run of errors alone needs none
+      print_row("file", "category", "confidence", "votes", "runner-up", "time");
+      head_printed_ = true;
+    }
     print_row(cut_in_the_middle(printable(file.string()), file_width_), name(c.ballot.winner),
               fmt::format("{:.2f}", c.confidence),
               fmt::format("{}/{}", c.ballot.count[c.ballot.winner], model_.categories.size() - 1),
@@ -137,6 +139,7 @@ class AnswerPrinter {
   const ClassifyArguments& arguments_;
   std::size_t file_width_ = 4;
   std::size_t category_width_ = 8;
+  bool head_printed_ = false;
 };
 
 // Classifies on all threads and prints in the order of the files, each as soon as those before it are printed.
@@ -184,7 +187,9 @@ Command add_classify(CLI::App& parent) {
       "Example:\n"
       "  spincat classify furniture.spincat chair.obj scans/*.ply\n"
       "  spincat classify furniture.spincat incoming/ --json > names.jsonl");
-  command->add_option("model", arguments->model, "A model file written by spincat train")->type_name("MODEL")->required();
+  command->add_option("model", arguments->model, "A model file written by spincat train")
+      ->type_name("MODEL")
+      ->required();
   command->add_option("files", arguments->inputs, "Objects, or folders of objects")->type_name("FILE")->required();
   command->add_flag("--votes", arguments->votes, "Show what every judge said");
   arguments->run.add_to(*command);

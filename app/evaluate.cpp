@@ -1,3 +1,5 @@
+#include "spincat/pipeline/evaluate.h"
+
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -7,7 +9,6 @@
 #include "commands.h"
 #include "options.h"
 #include "progress_bar.h"
-#include "spincat/pipeline/evaluate.h"
 #include "spincat/report/json.h"
 #include "spincat/report/text.h"
 

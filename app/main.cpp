@@ -43,8 +43,9 @@ int flush_output(int code) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App cli("spincat learns object categories from 3D models by spin images and pairwise judges, and names new ones.",
-               "spincat");
+  CLI::App cli(
+      "spincat learns object categories from 3D models by spin images and pairwise judges, and names new ones.",
+      "spincat");
   cli.footer(
       "Example:\n"
       "  spincat train models/ -o models.spincat       learn: models/ has a sub-folder per category\n"

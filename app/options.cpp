@@ -56,7 +56,9 @@ void RunOptions::add_to(CLI::App& command) {
   command.add_flag("--quiet", quiet, "No progress and no notes on standard error, only errors");
 }
 
-int RunOptions::thread_count() const { return spincat::thread_count(threads); }
+int RunOptions::thread_count() const {
+  return spincat::thread_count(threads);
+}
 
 void DatasetArguments::add_to(CLI::App& command) {
   command

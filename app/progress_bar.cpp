@@ -28,7 +28,9 @@ std::string bar_line(std::string_view stage, std::size_t done, std::size_t total
 
 ProgressBar::ProgressBar(const RunOptions& run) : enabled_(!run.quiet && isatty(STDERR_FILENO) == 1) {}
 
-ProgressBar::~ProgressBar() { wipe(); }
+ProgressBar::~ProgressBar() {
+  wipe();
+}
 
 Progress ProgressBar::callback() {
   return [this](std::string_view stage, std::size_t done, std::size_t total) { update(stage, done, total); };

@@ -1,3 +1,5 @@
+#include "spincat/pipeline/train.h"
+
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -8,7 +10,6 @@
 #include "progress_bar.h"
 #include "spincat/io/file.h"
 #include "spincat/pipeline/stopwatch.h"
-#include "spincat/pipeline/train.h"
 #include "spincat/report/json.h"
 #include "spincat/report/text.h"
 
@@ -23,10 +24,25 @@ struct TrainArguments {
   bool all = false;
 };
 
+// Without its official test split, unless the user wants that, too.
+Dataset dataset_to_learn_from(const TrainArguments& arguments) {
+  Dataset whole = arguments.dataset.read();
+  if (arguments.all) {
+    return whole;
+  }
+  Dataset part = training_part(whole);
+  const std::size_t held_back = whole.objects.size() - part.objects.size();
+  if (held_back > 0 && !arguments.run.quiet) {
+    fmt::print(stderr, "spincat: {} objects of the data set's test split are held back (--all learns from them, too)\n",
+               held_back);
+  }
+  return part;
+}
+
 int run_train(const TrainArguments& arguments) {
   const Settings settings = arguments.settings.settings();
   check_writable(arguments.output);  // before the work, not after it
-  const Dataset dataset = arguments.all ? arguments.dataset.read() : training_part(arguments.dataset.read());
+  const Dataset dataset = dataset_to_learn_from(arguments);
   Stopwatch watch;
   TrainResult result;
   {
@@ -36,7 +52,7 @@ int run_train(const TrainArguments& arguments) {
   write_model(arguments.output, result.model);
   report_skipped(result.skipped, arguments.run);
   if (arguments.run.json) {
-    fmt::print("{}\n", model_json(arguments.output.string(), result.model));
+    fmt::print("{}\n", training_json(arguments.output.string(), result));
   } else {
     fmt::print("{}wrote {} in {}\n", model_text(result.model), arguments.output.string(), human_seconds(watch.lap()));
   }

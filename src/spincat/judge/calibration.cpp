@@ -9,7 +9,9 @@
 namespace spincat {
 namespace {
 
-double logistic(double t) { return 1.0 / (1.0 + std::exp(-t)); }
+double logistic(double t) {
+  return 1.0 / (1.0 + std::exp(-t));
+}
 
 }  // namespace
 

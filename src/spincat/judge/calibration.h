@@ -24,8 +24,8 @@ struct JudgedObject {
 };
 
 // Fits slope and offset to such votes by maximum likelihood (Newton steps with Platt's softened targets, so that a
-// handful of votes or votes that are all right do not give certainty). Deterministic. The uncalibrated values when there
-// are fewer than ten votes.
+// handful of votes or votes that are all right do not give certainty). Deterministic. The uncalibrated values when
+// there are fewer than ten votes.
 Calibration fit_calibration(std::span<const JudgedObject> votes);
 
 }  // namespace spincat

@@ -62,8 +62,8 @@ Judge TrainingSet::teach(CategoryPair pair, const JudgeSettings& settings) const
 
 JudgeList JudgeList::fold(std::uint32_t categories, std::span<const Judge> judges) {
   const auto count = static_cast<Eigen::Index>(judges.size());
-  JudgeList list{categories, FeatureMatrix(count, judges.empty() ? 0 : judges[0].weights.size()),
-                 Eigen::VectorXf(count), {}};
+  JudgeList list{
+      categories, FeatureMatrix(count, judges.empty() ? 0 : judges[0].weights.size()), Eigen::VectorXf(count), {}};
   for (Eigen::Index l = 0; l < count; ++l) {
     const Judge& judge = judges[static_cast<std::size_t>(l)];
     list.weights.row(l) = judge.weights;

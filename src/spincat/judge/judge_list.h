@@ -58,8 +58,8 @@ class TrainingSet {
 //   margin of judge l on object x:   weights.row(l) . x + bias(l)
 struct JudgeList {
   std::uint32_t categories = 0;
-  FeatureMatrix weights;  // L x D
-  Eigen::VectorXf bias;   // L
+  FeatureMatrix weights;                       // L x D
+  Eigen::VectorXf bias;                        // L
   std::vector<std::uint32_t> support_vectors;  // L
 
   // From the judges in the order of all_pairs.

@@ -12,8 +12,8 @@ Classification classify(const Model& model, const Object& object) {
   Classification result;
   const FeatureVector features = describe(object, model.settings, 0, &result.seconds);
   if (features.values.size() != model.feature_length()) {
-    throw InputError(fmt::format("gives {} features where the model expects {}", features.values.size(),
-                                 model.feature_length()));
+    throw InputError(
+        fmt::format("gives {} features where the model expects {}", features.values.size(), model.feature_length()));
   }
   Stopwatch watch;
   result.ballot = model.judges.vote(features.values);

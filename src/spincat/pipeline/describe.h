@@ -17,8 +17,8 @@ struct StageSeconds {
   StageSeconds& operator+=(const StageSeconds& other);
 };
 
-// The feature vector of an object, or of its stretched training copy number `copy`. Deterministic. Adds the time spent to
-// `seconds` where one is given. Throws InputError (without a file name) when the object has no extent.
+// The feature vector of an object, or of its stretched training copy number `copy`. Deterministic. Adds the time spent
+// to `seconds` where one is given. Throws InputError (without a file name) when the object has no extent.
 FeatureVector describe(const Object& object, const Settings& settings, int copy = 0, StageSeconds* seconds = nullptr);
 
 // The bin size in the unit of prepared points. Throws InputError when an object of resolution 0 is to be measured in

@@ -85,8 +85,7 @@ Evaluation evaluate(const Dataset& dataset, const Settings& settings, const Eval
   Stopwatch whole;
   const FeatureTable table = describe_dataset(dataset, settings, options.strict, options.threads, progress);
   const std::vector<std::uint32_t> labels = table.object_labels();
-  const std::vector<Split> splits =
-      stratified_splits(labels, options.splits, options.test_fraction, settings.seed);
+  const std::vector<Split> splits = stratified_splits(labels, options.splits, options.test_fraction, settings.seed);
 
   Stopwatch watch;
   const Eigen::MatrixXf gram = shared_gram(table, options.threads);

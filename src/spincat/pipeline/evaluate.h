@@ -13,10 +13,10 @@
 namespace spincat {
 
 struct EvaluateOptions {
-  int splits = 20;              // repeated stratified splits, 1 to 10,000
-  double test_fraction = 0.2;   // of each category's objects
-  bool strict = false;          // an object that cannot be read ends the evaluation instead of being left out
-  int threads = 1;              // never changes the result
+  int splits = 20;             // repeated stratified splits, 1 to 10,000
+  double test_fraction = 0.2;  // of each category's objects
+  bool strict = false;         // an object that cannot be read ends the evaluation instead of being left out
+  int threads = 1;             // never changes the result
 };
 
 // Mean and sample standard deviation over the splits.
@@ -35,7 +35,7 @@ struct Evaluation {
   Rate overall_rate;     // right votes over all votes
   // n x n counts added up over the splits: row = the truth, column = what the object was named.
   std::vector<std::vector<std::uint32_t>> confusion;
-  StageSeconds seconds;        // added up over threads; judge: teaching and voting
+  StageSeconds seconds;       // added up over threads; judge: teaching and voting
   double wall_seconds = 0.0;  // of everything
 };
 

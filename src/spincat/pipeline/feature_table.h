@@ -17,10 +17,10 @@ namespace spincat {
 // Objects that could be read, and their features: row i * rows_per_object is object i itself, the rows after it are its
 // stretched training copies.
 struct FeatureTable {
-  std::vector<DatasetObject> objects;       // N
-  std::vector<std::string> categories;      // n, all of the data set
-  std::vector<SkippedObject> skipped;       // the data set's, and those that could not be read, sorted by file
-  FeatureMatrix features;                   // N rows_per_object x D
+  std::vector<DatasetObject> objects;   // N
+  std::vector<std::string> categories;  // n, all of the data set
+  std::vector<SkippedObject> skipped;   // the data set's, and those that could not be read, sorted by file
+  FeatureMatrix features;               // N rows_per_object x D
   std::uint32_t rows_per_object = 1;
   std::string encoding;
   StageSeconds seconds;  // added up over threads

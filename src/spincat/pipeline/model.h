@@ -21,15 +21,15 @@ struct Model {
   std::vector<std::string> categories;  // n, in the order of the judges
   JudgeList judges;
   Calibration calibration;
-  std::string dataset;                      // what it was trained on, as the user named it
+  std::string dataset;                       // what it was trained on, as the user named it
   std::vector<std::uint32_t> object_counts;  // n: training objects of each category, copies not counted
-  std::string made_by;                      // "spincat 0.1.0"
+  std::string made_by;                       // "spincat 0.1.0"
 
   std::size_t feature_length() const { return static_cast<std::size_t>(judges.weights.cols()); }
 };
 
-// Writes the model file: self-describing, with a version and a checksum; beside the target first, then renamed. The same
-// model gives the same bytes. Throws as write_file_atomically does.
+// Writes the model file: self-describing, with a version and a checksum; beside the target first, then renamed. The
+// same model gives the same bytes. Throws as write_file_atomically does.
 void write_model(const std::filesystem::path& file, const Model& model);
 
 // Reads a model file. Everything in it is checked before it is used: names, counts, ranges, finite numbers.

@@ -28,9 +28,9 @@ struct Settings {
   BinSizeUnit bin_size_unit = BinSizeUnit::relative;
   std::string encoding = "pooled-pyramid";
   JudgeSettings judge;
-  int copies = 6;            // stretched copies of each training object, 0 to 100
-  double stretch = 0.2;      // each axis of a copy is stretched by exp(U(-stretch, stretch)), 0 to 2
-  std::uint64_t seed = 1;    // of every random choice
+  int copies = 6;          // stretched copies of each training object, 0 to 100
+  double stretch = 0.2;    // each axis of a copy is stretched by exp(U(-stretch, stretch)), 0 to 2
+  std::uint64_t seed = 1;  // of every random choice
 
   // Throws InputError naming the field, its value and the allowed range.
   void validate() const;

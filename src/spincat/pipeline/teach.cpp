@@ -74,8 +74,7 @@ Calibration calibrate(const FeatureTable& table, const Eigen::MatrixXf& gram, st
       (in_category[labels[i]] > 1 ? judged : fold.train).push_back(i);
     }
     std::ranges::sort(fold.train);
-    const JudgeList judges =
-        teach_judges(table, gram, picked(objects, fold.train), settings, threads, Progress{});
+    const JudgeList judges = teach_judges(table, gram, picked(objects, fold.train), settings, threads, Progress{});
     for (const std::uint32_t i : judged) {
       const Ballot ballot = judges.vote(table.features_of(objects[i]));
       votes.push_back({ballot.weakest_margin, ballot.winner == labels[i]});

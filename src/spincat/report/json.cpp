@@ -9,7 +9,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string line(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+std::string line(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
 
 Json stage_seconds(const StageSeconds& seconds) {
   return {{"read", seconds.read},
@@ -17,6 +19,26 @@ Json stage_seconds(const StageSeconds& seconds) {
           {"spin", seconds.spin},
           {"encode", seconds.encode},
           {"judge", seconds.judge}};
+}
+
+Json skipped_objects(const std::vector<SkippedObject>& skipped) {
+  Json list = Json::array();
+  for (const SkippedObject& each : skipped) {
+    list.push_back({{"file", each.file.string()}, {"error", each.reason}});
+  }
+  return list;
+}
+
+Json model_facts(const std::string& file, const Model& model) {
+  return {{"file", file},
+          {"kind", "model"},
+          {"made_by", model.made_by},
+          {"dataset", model.dataset},
+          {"categories", model.categories},
+          {"object_counts", model.object_counts},
+          {"features", model.feature_length()},
+          {"judges", model.judges.size()},
+          {"settings", settings_to_json(model.settings)}};
 }
 
 }  // namespace
@@ -58,10 +80,6 @@ std::string evaluation_json(const Evaluation& e, const Settings& settings) {
     objects += e.object_counts[c];
     counts[e.categories[c]] = e.object_counts[c];
   }
-  Json skipped = Json::array();
-  for (const SkippedObject& each : e.skipped) {
-    skipped.push_back({{"file", each.file.string()}, {"error", each.reason}});
-  }
   return line({{"dataset", e.dataset},
                {"objects", objects},
                {"categories", e.categories},
@@ -75,19 +93,18 @@ std::string evaluation_json(const Evaluation& e, const Settings& settings) {
                {"object_counts", counts},
                {"stage_seconds", stage_seconds(e.seconds)},
                {"settings", settings_to_json(settings)},
-               {"skipped", skipped}});
+               {"skipped", skipped_objects(e.skipped)}});
 }
 
 std::string model_json(const std::string& file, const Model& model) {
-  return line({{"file", file},
-               {"kind", "model"},
-               {"made_by", model.made_by},
-               {"dataset", model.dataset},
-               {"categories", model.categories},
-               {"object_counts", model.object_counts},
-               {"features", model.feature_length()},
-               {"judges", model.judges.size()},
-               {"settings", settings_to_json(model.settings)}});
+  return line(model_facts(file, model));
+}
+
+std::string training_json(const std::string& file, const TrainResult& result) {
+  Json json = model_facts(file, result.model);
+  json["stage_seconds"] = stage_seconds(result.seconds);
+  json["skipped"] = skipped_objects(result.skipped);
+  return line(json);
 }
 
 std::string object_json(const std::string& file, const ObjectFacts& facts) {

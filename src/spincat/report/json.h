@@ -8,6 +8,7 @@
 #include "spincat/pipeline/classify.h"
 #include "spincat/pipeline/evaluate.h"
 #include "spincat/pipeline/model.h"
+#include "spincat/pipeline/train.h"
 #include "spincat/prepare/facts.h"
 
 namespace spincat {
@@ -29,5 +30,8 @@ std::string model_json(const std::string& file, const Model& model);
 
 // {"file", "kind": "mesh" or "point cloud", "points", "triangles", "size", "area", "resolution", "defects": {name: n}}
 std::string object_json(const std::string& file, const ObjectFacts& facts);
+
+// As model_json, and "skipped": [{"file", "error"}], "stage_seconds"
+std::string training_json(const std::string& file, const TrainResult& result);
 
 }  // namespace spincat

@@ -12,9 +12,13 @@
 namespace spincat {
 namespace {
 
-std::string per_cent(double share) { return fmt::format("{:.0f}", 100.0 * share); }
+std::string per_cent(double share) {
+  return fmt::format("{:.0f}", 100.0 * share);
+}
 
-double row_total(const std::vector<std::uint32_t>& row) { return std::accumulate(row.begin(), row.end(), 0.0); }
+double row_total(const std::vector<std::uint32_t>& row) {
+  return std::accumulate(row.begin(), row.end(), 0.0);
+}
 
 std::string diagonal_share(const Evaluation& e, std::size_t c) {
   const double total = row_total(e.confusion[c]);
@@ -90,7 +94,9 @@ std::size_t widest_line(const std::string& text) {
   return widest;
 }
 
-std::string rate_text(const Rate& rate) { return fmt::format("{:.3f} ± {:.3f}", rate.mean, rate.deviation); }
+std::string rate_text(const Rate& rate) {
+  return fmt::format("{:.3f} ± {:.3f}", rate.mean, rate.deviation);
+}
 
 }  // namespace
 
@@ -136,9 +142,9 @@ std::string ballot_text(const Ballot& ballot, const std::vector<std::string>& ca
   }
   std::string text = table.str();
   if (ballot.tie_break != TieBreak::none) {
-    text += fmt::format("    a tie, broken by {}\n", ballot.tie_break == TieBreak::margins
-                                                        ? "the sum of the margins"
-                                                        : "the order of the categories");
+    text +=
+        fmt::format("    a tie, broken by {}\n",
+                    ballot.tie_break == TieBreak::margins ? "the sum of the margins" : "the order of the categories");
   }
   return text;
 }
@@ -157,12 +163,12 @@ std::string model_text(const Model& model) {
   table.add({"preset", fmt::format("{}, seed {}, {} stretched copies of each object", s.preset, s.seed, s.copies)});
   table.add({"surface", fmt::format("{}, {} points, {} spin points", name_of(s.prepare.surface), s.prepare.points,
                                     s.prepare.spin_points)});
-  table.add({"spin images", fmt::format("{}, width {}, bin size {} {}, support angle {}, {} binning",
-                                        name_of(s.spin.convention), s.spin.image_width, s.spin.bin_size,
-                                        name_of(s.bin_size_unit),
-                                        s.spin.angle_test == AngleTest::soft ? std::string("soft")
-                                                                             : fmt::format("{}", s.spin.support_angle),
-                                        name_of(s.spin.binning))});
+  table.add(
+      {"spin images",
+       fmt::format("{}, width {}, bin size {} {}, support angle {}, {} binning", name_of(s.spin.convention),
+                   s.spin.image_width, s.spin.bin_size, name_of(s.bin_size_unit),
+                   s.spin.angle_test == AngleTest::soft ? std::string("soft") : fmt::format("{}", s.spin.support_angle),
+                   name_of(s.spin.binning))});
   table.add({"encoding", s.encoding});
   return table.str();
 }

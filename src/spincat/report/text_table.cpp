@@ -5,7 +5,9 @@
 namespace spincat {
 namespace {
 
-bool begins_code_point(char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }
+bool begins_code_point(char c) {
+  return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+}
 
 // The first `count` code points of `text`.
 std::string_view first_code_points(std::string_view text, std::size_t count) {

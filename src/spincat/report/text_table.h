@@ -8,7 +8,8 @@
 
 namespace spincat {
 
-// How many columns of a terminal a UTF-8 text takes: one a code point (wide and combining characters are not known here).
+// How many columns of a terminal a UTF-8 text takes: one a code point (wide and combining characters are not known
+// here).
 std::size_t text_width(std::string_view text);
 
 // `text` cut to `width` columns by leaving out its middle ("very/lo…air.obj"), never inside a code point.
@@ -19,7 +20,8 @@ std::string printable(std::string_view text);
 
 enum class Align { left, right };
 
-// Rows of cells under one head; every column as wide as its widest cell, two blanks between columns, no trailing blanks.
+// Rows of cells under one head; every column as wide as its widest cell, two blanks between columns, no trailing
+// blanks.
 class TextTable {
  public:
   explicit TextTable(std::vector<Align> columns) : columns_(std::move(columns)) {}

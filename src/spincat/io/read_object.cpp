@@ -37,6 +37,7 @@ Object without_folder(std::string_view bytes, const std::filesystem::path&, cons
 constexpr std::array formats{
     Format{".off", without_folder<io::read_off>},
     Format{".obj", without_folder<io::read_obj>},
+    Format{".ply", without_folder<io::read_ply>},
 };
 
 std::string lower_extension(const std::filesystem::path& file) {

@@ -36,7 +36,7 @@ bool is_tiny(std::string_view number) {
 
 }  // namespace
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t longest = 24;
   std::string shown(text.substr(0, longest));
   std::replace_if(
@@ -135,7 +135,7 @@ double TextCursor::number(const char* what) {
   if (error == std::errc::invalid_argument || !at_word_end(last) || (first != at_ && *first == '-'))
     fail_expecting(what);
   if (error == std::errc::result_out_of_range) {
-    if (!is_tiny({at_, static_cast<std::size_t>(last - at_)})) fail(quoted(word()) + " is too large for a number");
+    if (!is_tiny({at_, static_cast<std::size_t>(last - at_)})) fail(in_quotes(word()) + " is too large for a number");
     value = 0;
   }
   at_ = last;
@@ -147,7 +147,7 @@ double TextCursor::finite_number(const char* what) {
   const double value = number(what);
   if (!std::isfinite(value)) {
     at_ = first;
-    fail(fmt::format("{} must be finite, found {}", what, quoted(word())));
+    fail(fmt::format("{} must be finite, found {}", what, in_quotes(word())));
   }
   return value;
 }
@@ -177,7 +177,7 @@ void TextCursor::fail(const std::string& problem) const {
 }
 
 void TextCursor::fail_expecting(const char* what) {
-  if (word_on_line()) fail(fmt::format("expected {}, found {}", what, quoted(word())));
+  if (word_on_line()) fail(fmt::format("expected {}, found {}", what, in_quotes(word())));
   fail(fmt::format("expected {}, but the {} ends here", what, at_ == end_ ? "file" : "line"));
 }
 

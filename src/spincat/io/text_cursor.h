@@ -19,7 +19,7 @@ struct TextStyle {
 };
 
 // A piece of a file in quotes, short and printable, for error messages.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 // Whether two words are equal but for upper and lower case.
 bool same_word(std::string_view a, std::string_view b);

@@ -15,6 +15,7 @@
 #include "spincat/error.h"
 #include "spincat/geometry/object.h"
 #include "spincat/io/read_object.h"
+#include "spincat/io/vertex_merger.h"
 
 namespace spincat::io {
 
@@ -51,6 +52,12 @@ class ObjectBuilder {
   void add_vertex(const Vec3& vertex) {
     if (mesh_.vertices.size() == limits_.max_points) check_vertices(limits_.max_points + std::uint64_t{1});
     mesh_.vertices.push_back(vertex);
+  }
+  // Adds a vertex unless there is an equal one; its index.
+  std::uint32_t add_merged_vertex(const Vec3& vertex, VertexMerger& merger) {
+    const std::uint32_t index = merger.index_of(vertex, mesh_.vertices);
+    check_vertices(mesh_.vertices.size());
+    return index;
   }
   // Normals of points; they are dropped when a face turns up or when not every point has one.
   void add_normal(const Vec3& normal) {

@@ -38,6 +38,7 @@ constexpr std::array formats{
     Format{".off", without_folder<io::read_off>},
     Format{".obj", without_folder<io::read_obj>},
     Format{".ply", without_folder<io::read_ply>},
+    Format{".stl", without_folder<io::read_stl>},
 };
 
 std::string lower_extension(const std::filesystem::path& file) {

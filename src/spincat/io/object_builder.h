@@ -63,9 +63,10 @@ class ObjectBuilder {
   void add_normal(const Vec3& normal) {
     if (mesh_.triangles.empty()) normals_.push_back(normal);
   }
+  void forget_normals() { std::vector<Vec3>().swap(normals_); }
   void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     if (mesh_.triangles.size() == limits_.max_triangles) check_triangles(limits_.max_triangles + std::uint64_t{1});
-    if (mesh_.triangles.empty()) std::vector<Vec3>().swap(normals_);
+    if (mesh_.triangles.empty()) forget_normals();
     mesh_.triangles.push_back({a, b, c});
   }
 
@@ -99,7 +100,7 @@ class ObjectBuilder {
     if (!mesh_.triangles.empty()) return std::move(mesh_);
     if (mesh_.vertices.empty())
       throw InputError(left_out_ ? "holds only points without finite coordinates" : "holds neither a face nor a point");
-    if (normals_.size() != mesh_.vertices.size()) normals_.clear();
+    if (normals_.size() != mesh_.vertices.size()) forget_normals();
     return PointCloud{std::move(mesh_.vertices), std::move(normals_), sensor_};
   }
 

@@ -53,9 +53,8 @@ TextCursor::TextCursor(std::string_view text, TextStyle style)
   if (text.starts_with("\xEF\xBB\xBF")) at_ += 3;  // a byte order mark, which some editors put before UTF-8
 }
 
-bool TextCursor::at_comment() const {
-  return (style_.hash_comments && *at_ == '#') ||
-         (style_.slash_comments && *at_ == '/' && end_ - at_ > 1 && at_[1] == '/');
+bool TextCursor::is_comment(const char* at) const {
+  return (style_.hash_comments && *at == '#') || (style_.slash_comments && *at == '/' && end_ - at > 1 && at[1] == '/');
 }
 
 // Goes past a \ with the line end behind it.
@@ -75,7 +74,7 @@ bool TextCursor::word_on_line() {
       ++at_;
     } else if (is_line_end(*at_)) {
       return false;
-    } else if (at_comment()) {
+    } else if (is_comment(at_)) {
       while (at_ != end_ && !is_line_end(*at_)) ++at_;
     } else if (!take_continuation()) {
       return true;
@@ -105,7 +104,7 @@ void TextCursor::skip_line() {
 }
 
 bool TextCursor::at_word_end(const char* at) const {
-  return at == end_ || is_blank(*at) || is_line_end(*at) || (style_.hash_comments && *at == '#') ||
+  return at == end_ || is_blank(*at) || is_line_end(*at) || is_comment(at) ||
          (style_.commas_separate && (*at == ',' || *at == ';')) || (style_.backslash_continues && *at == '\\');
 }
 

@@ -58,7 +58,7 @@ class TextCursor {
   [[noreturn]] void fail(const std::string& problem) const;
 
  private:
-  bool at_comment() const;
+  bool is_comment(const char* at) const;
   bool take_continuation();
   void skip_line_end();
   bool at_word_end(const char* at) const;

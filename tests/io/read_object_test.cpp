@@ -57,6 +57,7 @@ TEST(ReadObject, NamesTheFormatsItReads) {
 TEST(ObjectExtensions, AreThoseOfObjectFiles) {
   EXPECT_TRUE(is_object_file("folder/a.off"));
   EXPECT_TRUE(is_object_file("A.OBJ"));
+  EXPECT_FALSE(is_object_file("a.txt"));  // notes, unless read_object is asked
   EXPECT_FALSE(is_object_file("a.png"));
   EXPECT_FALSE(is_object_file("off"));
   EXPECT_FALSE(is_object_file(".off"));

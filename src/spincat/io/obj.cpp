@@ -63,7 +63,8 @@ class ObjReader {
     std::int64_t index = 0;
     const auto [last, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
     const bool whole = last == digits.data() + digits.size();
-    if (error != std::errc() || !(whole || *last == '/')) text_.fail("expected a vertex index, found " + quoted(word));
+    if (error != std::errc() || !(whole || *last == '/'))
+      text_.fail("expected a vertex index, found " + in_quotes(word));
     const auto vertices = static_cast<std::int64_t>(object_.vertices());
     if (index == 0 || index < -vertices || index > most_index) text_.fail(out_of_range(index, object_.vertices()));
     if (index < 0) return static_cast<std::uint32_t>(vertices + index);

@@ -3,15 +3,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "spincat/error.h"
 #include "spincat/geometry/object.h"
 #include "spincat/io/read_object.h"
+#include "spincat/io/vertex_merger.h"
 
 namespace spincat::io {
 
@@ -40,23 +44,42 @@ class ObjectBuilder {
     check_vertices(count);
     mesh_.vertices.reserve(count);
   }
-  void expect_triangles(std::uint64_t count) {
-    check_triangles(count);
-    mesh_.triangles.reserve(count);
+  // As good a guess as the caller has; it too knows that the file is long enough.
+  void reserve_triangles(std::uint64_t count) {
+    mesh_.triangles.reserve(std::min<std::uint64_t>(count, limits_.max_triangles));
   }
 
   void add_vertex(const Vec3& vertex) {
     if (mesh_.vertices.size() == limits_.max_points) check_vertices(limits_.max_points + std::uint64_t{1});
     mesh_.vertices.push_back(vertex);
   }
+  // Adds a vertex unless there is an equal one; its index.
+  std::uint32_t add_merged_vertex(const Vec3& vertex, VertexMerger& merger) {
+    const std::uint32_t index = merger.index_of(vertex, mesh_.vertices);
+    check_vertices(mesh_.vertices.size());
+    return index;
+  }
   // Normals of points; they are dropped when a face turns up or when not every point has one.
   void add_normal(const Vec3& normal) {
     if (mesh_.triangles.empty()) normals_.push_back(normal);
   }
+  void forget_normals() { std::vector<Vec3>().swap(normals_); }
   void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     if (mesh_.triangles.size() == limits_.max_triangles) check_triangles(limits_.max_triangles + std::uint64_t{1});
-    if (mesh_.triangles.empty()) std::vector<Vec3>().swap(normals_);
+    if (mesh_.triangles.empty()) forget_normals();
     mesh_.triangles.push_back({a, b, c});
+  }
+
+  // In a point cloud a coordinate that is not finite means "nothing measured here".
+  void add_point(const Vec3& point) {
+    if (point.allFinite())
+      add_vertex(point);
+    else
+      left_out_ = true;
+  }
+  void add_point(const Vec3& point, const Vec3& normal) {
+    if (point.allFinite()) add_normal(normal);
+    add_point(point);
   }
 
   // A polygon, corner by corner, becomes a fan around its first corner. One or two corners become nothing.
@@ -75,8 +98,9 @@ class ObjectBuilder {
   // The object, a mesh where there is a face. Throws when there is nothing in it.
   Object finish() {
     if (!mesh_.triangles.empty()) return std::move(mesh_);
-    if (mesh_.vertices.empty()) throw InputError("holds neither a face nor a point");
-    if (normals_.size() != mesh_.vertices.size()) normals_.clear();
+    if (mesh_.vertices.empty())
+      throw InputError(left_out_ ? "holds only points without finite coordinates" : "holds neither a face nor a point");
+    if (normals_.size() != mesh_.vertices.size()) forget_normals();
     return PointCloud{std::move(mesh_.vertices), std::move(normals_), sensor_};
   }
 
@@ -87,6 +111,7 @@ class ObjectBuilder {
   Mesh mesh_;
   std::vector<Vec3> normals_;
   std::optional<Vec3> sensor_;
+  bool left_out_ = false;
   std::size_t corners_ = 0;
   std::uint32_t first_ = 0;
   std::uint32_t previous_ = 0;

@@ -35,7 +35,7 @@ Header read_header(TextCursor& text) {
   const bool four = take("4");
   const bool any_dimension = take("n");
   if (!same_word(word.substr(at, 3), "OFF")) {
-    if (word[0] < '0' || word[0] > '9') text.fail("expected the header 'OFF', found " + quoted(word));
+    if (word[0] < '0' || word[0] > '9') text.fail("expected the header 'OFF', found " + in_quotes(word));
     return {};
   }
   if (four || any_dimension)
@@ -94,7 +94,7 @@ Object read_off(std::string_view bytes, const ReadLimits& limits) {
   check_fits(text, vertices, "vertices", 6);  // "0 0 0\n"
   check_fits(text, faces, "faces", 2);        // "0\n"
   object.expect_vertices(vertices);
-  if (faces <= text.bytes_left() / 8) object.expect_triangles(faces);  // "3 0 0 0\n": most are triangles
+  if (faces <= text.bytes_left() / 8) object.reserve_triangles(faces);  // "3 0 0 0\n": most are triangles
   text.skip_line();  // the number of edges, which nobody needs and many leave out
 
   for (std::uint64_t i = 0; i < vertices; ++i) read_vertex(text, header.normals && faces == 0, object);

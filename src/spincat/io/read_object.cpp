@@ -37,6 +37,16 @@ Object without_folder(std::string_view bytes, const std::filesystem::path&, cons
 constexpr std::array formats{
     Format{".off", without_folder<io::read_off>},
     Format{".obj", without_folder<io::read_obj>},
+    Format{".ply", without_folder<io::read_ply>},
+    Format{".stl", without_folder<io::read_stl>},
+    Format{".pcd", without_folder<io::read_pcd>},
+    Format{".xyz", without_folder<io::read_xyz>},
+    Format{".xyzn", without_folder<io::read_xyz>},
+    Format{".pts", without_folder<io::read_xyz>},
+    Format{".asc", without_folder<io::read_xyz>},
+    Format{".gltf", io::read_gltf},
+    Format{".glb", io::read_gltf},
+    Format{".txt", without_folder<io::read_xyz>},
 };
 
 std::string lower_extension(const std::filesystem::path& file) {

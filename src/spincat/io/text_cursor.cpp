@@ -36,7 +36,7 @@ bool is_tiny(std::string_view number) {
 
 }  // namespace
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t longest = 24;
   std::string shown(text.substr(0, longest));
   std::replace_if(
@@ -53,9 +53,8 @@ TextCursor::TextCursor(std::string_view text, TextStyle style)
   if (text.starts_with("\xEF\xBB\xBF")) at_ += 3;  // a byte order mark, which some editors put before UTF-8
 }
 
-bool TextCursor::at_comment() const {
-  return (style_.hash_comments && *at_ == '#') ||
-         (style_.slash_comments && *at_ == '/' && end_ - at_ > 1 && at_[1] == '/');
+bool TextCursor::is_comment(const char* at) const {
+  return (style_.hash_comments && *at == '#') || (style_.slash_comments && *at == '/' && end_ - at > 1 && at[1] == '/');
 }
 
 // Goes past a \ with the line end behind it.
@@ -75,7 +74,7 @@ bool TextCursor::word_on_line() {
       ++at_;
     } else if (is_line_end(*at_)) {
       return false;
-    } else if (at_comment()) {
+    } else if (is_comment(at_)) {
       while (at_ != end_ && !is_line_end(*at_)) ++at_;
     } else if (!take_continuation()) {
       return true;
@@ -105,7 +104,7 @@ void TextCursor::skip_line() {
 }
 
 bool TextCursor::at_word_end(const char* at) const {
-  return at == end_ || is_blank(*at) || is_line_end(*at) || (style_.hash_comments && *at == '#') ||
+  return at == end_ || is_blank(*at) || is_line_end(*at) || is_comment(at) ||
          (style_.commas_separate && (*at == ',' || *at == ';')) || (style_.backslash_continues && *at == '\\');
 }
 
@@ -135,7 +134,7 @@ double TextCursor::number(const char* what) {
   if (error == std::errc::invalid_argument || !at_word_end(last) || (first != at_ && *first == '-'))
     fail_expecting(what);
   if (error == std::errc::result_out_of_range) {
-    if (!is_tiny({at_, static_cast<std::size_t>(last - at_)})) fail(quoted(word()) + " is too large for a number");
+    if (!is_tiny({at_, static_cast<std::size_t>(last - at_)})) fail(in_quotes(word()) + " is too large for a number");
     value = 0;
   }
   at_ = last;
@@ -147,7 +146,7 @@ double TextCursor::finite_number(const char* what) {
   const double value = number(what);
   if (!std::isfinite(value)) {
     at_ = first;
-    fail(fmt::format("{} must be finite, found {}", what, quoted(word())));
+    fail(fmt::format("{} must be finite, found {}", what, in_quotes(word())));
   }
   return value;
 }
@@ -177,7 +176,7 @@ void TextCursor::fail(const std::string& problem) const {
 }
 
 void TextCursor::fail_expecting(const char* what) {
-  if (word_on_line()) fail(fmt::format("expected {}, found {}", what, quoted(word())));
+  if (word_on_line()) fail(fmt::format("expected {}, found {}", what, in_quotes(word())));
   fail(fmt::format("expected {}, but the {} ends here", what, at_ == end_ ? "file" : "line"));
 }
 

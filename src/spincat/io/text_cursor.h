@@ -19,7 +19,7 @@ struct TextStyle {
 };
 
 // A piece of a file in quotes, short and printable, for error messages.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 // Whether two words are equal but for upper and lower case.
 bool same_word(std::string_view a, std::string_view b);
@@ -58,7 +58,7 @@ class TextCursor {
   [[noreturn]] void fail(const std::string& problem) const;
 
  private:
-  bool at_comment() const;
+  bool is_comment(const char* at) const;
   bool take_continuation();
   void skip_line_end();
   bool at_word_end(const char* at) const;

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 #include <new>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -58,6 +60,10 @@ int run(int argc, char** argv) {
                                                                  {"classify", add_classify(cli)},
                                                                  {"evaluate", add_evaluate(cli)},
                                                                  {"info", add_info(cli)}};
+  const auto is_called = [&](const auto& command) { return std::string_view(argv[1]) == command.first; };
+  if (argc > 1 && argv[1][0] != '-' && std::ranges::none_of(commands, is_called)) {
+    throw InputError(fmt::format("there is no command '{}' (spincat --help lists them)", argv[1]));
+  }
   try {
     cli.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

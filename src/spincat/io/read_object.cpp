@@ -18,11 +18,10 @@
 #include "spincat/geometry/object.h"
 #include "spincat/io/file.h"
 #include "spincat/io/formats.h"
+#include "spincat/io/magic.h"
 
 namespace spincat {
 namespace {
-
-constexpr std::string_view model_magic("SPINCAT\x1a", 8);
 
 struct Format {
   std::string_view extension;
@@ -65,7 +64,7 @@ const Format* format_of(const std::filesystem::path& file) {
 
 // The first bytes only: a file of an unknown kind may be of any size.
 std::string first_bytes(const std::filesystem::path& file) {
-  std::string bytes(model_magic.size(), '\0');
+  std::string bytes(kFileMagic.size(), '\0');
   std::ifstream in(file, std::ios::binary);
   in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   bytes.resize(static_cast<std::size_t>(in.gcount()));
@@ -78,7 +77,7 @@ std::string first_bytes(const std::filesystem::path& file) {
 
 [[noreturn]] void fail_as_unknown(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) throw InputError("no such file");
-  if (std::filesystem::is_regular_file(file) && first_bytes(file) == model_magic) fail_as_model();
+  if (std::filesystem::is_regular_file(file) && first_bytes(file) == kFileMagic) fail_as_model();
   const std::string extension = file.extension().string();
   throw InputError(fmt::format(
       "{}; spincat reads {}",
@@ -93,7 +92,7 @@ Object read(const std::filesystem::path& file, const ReadLimits& limits) {
   if (format == nullptr) fail_as_unknown(file);
   const std::string bytes = read_file(file);
   if (bytes.empty()) throw InputError("is empty");
-  if (bytes.starts_with(model_magic)) fail_as_model();
+  if (bytes.starts_with(kFileMagic)) fail_as_model();
   return format->read(bytes, file.parent_path(), limits);
 }
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <mutex>
-#include <optional>
 #include <utility>
 
 #include "spincat/error.h"
@@ -23,7 +23,9 @@ struct Described {
   StageSeconds seconds;
 };
 
-Described describe_object(const DatasetObject& entry, const Settings& settings, bool strict) {
+// `between_copies` is called after each copy: an interruption need not wait for all copies of a dense scan.
+Described describe_object(const DatasetObject& entry, const Settings& settings, bool strict,
+                          const std::function<void()>& between_copies) {
   Described result;
   try {
     Stopwatch watch;
@@ -31,6 +33,7 @@ Described describe_object(const DatasetObject& entry, const Settings& settings, 
     result.seconds.read = watch.lap();
     for (int copy = 0; copy <= settings.copies; ++copy) {
       result.features.push_back(describe(object, settings, copy, &result.seconds));
+      between_copies();
     }
   } catch (const InputError& error) {
     if (strict) {
@@ -128,13 +131,16 @@ FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, 
   std::vector<Described> described(dataset.objects.size());
   std::mutex mutex;
   std::size_t done = 0;
-  for_each_index(dataset.objects.size(), threads, [&](std::size_t i) {
-    described[i] = describe_object(dataset.objects[i], settings, strict);
+  const auto report = [&](std::size_t newly_done) {
     const std::lock_guard lock(mutex);
-    ++done;
+    done += newly_done;
     if (progress) {
       progress("describing objects", done, dataset.objects.size());
     }
+  };
+  for_each_index(dataset.objects.size(), threads, [&](std::size_t i) {
+    described[i] = describe_object(dataset.objects[i], settings, strict, [&] { report(0); });
+    report(1);
   });
   FeatureTable table = collect(dataset, std::move(described), settings);
   check_categories(table, dataset.name);

@@ -8,6 +8,7 @@ install(DIRECTORY src/spincat/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/spincat
         # private headers, which name libraries that users need not have
         PATTERN "record_file.h" EXCLUDE
         PATTERN "settings_json.h" EXCLUDE
+        PATTERN "whole_number.h" EXCLUDE
         PATTERN "point_tree.h" EXCLUDE
         PATTERN "unit_length.h" EXCLUDE)
 

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <numeric>
 
 #include "spincat/spin/kernel.h"
 
@@ -26,7 +27,9 @@ using I = hn::RebindToSigned<F>;
 using VF = hn::Vec<F>;
 using VI = hn::Vec<I>;
 
-constexpr float kOne = 0x1.0p30F;  // one in the unit of the sums
+constexpr double kUnit = 0x1.0p-23;         // of the sums
+constexpr std::int32_t kOne = 1 << 23;      // one, in that unit
+constexpr std::int32_t kBias = 127 * kOne;  // what in_units adds: the bits of 1.0F
 
 // ---- Which groups of points can lie in the support
 // -------------------------------------------------------------------
@@ -126,16 +129,16 @@ struct Pending {
   alignas(64) float beta[kPadded];
   alignas(64) float alpha2[kPadded];
   alignas(64) float cosine[kPadded];
-  alignas(64) std::int32_t cell[kPadded];
-  alignas(64) std::int32_t shares[4 * kPadded];    // what is added to the cell
+  alignas(64) std::int32_t cell[kPadded];          // where the cell's sums begin
+  alignas(64) std::int32_t shares[4 * kPadded];    // what is added to them
   alignas(64) std::int32_t weighted[4 * kPadded];  // the same, weighted by the squared cosine
-  std::size_t count = 0;
 };
 
-// Computes alpha^2, beta and the cosine for each point of a group and appends those in the support to `pending`.
-// The order of the operations is that of the definition.
+// Computes alpha^2, beta and the cosine for each point of a group and appends those in the support to the `count`
+// points of `pending`; returns how many it has then. The order of the operations is that of the definition.
 template <SpinConvention kConvention, bool kSoft, bool kTestsAngle>
-HWY_INLINE void scan_group(const float* group, const Support& support, const Probe& probe, Pending& pending) {
+HWY_INLINE std::size_t scan_group(const float* group, const Support& support, const Probe& probe, Pending& pending,
+                                  std::size_t count) {
   const F f;
   for (std::size_t i = 0; i < kGroupPoints; i += hn::Lanes(f)) {
     const auto load_run = [&](std::size_t run) { return hn::Load(f, group + run * kGroupPoints + i); };
@@ -162,13 +165,14 @@ HWY_INLINE void scan_group(const float* group, const Support& support, const Pro
       inside = hn::AndNot(hn::Lt(squared, hn::Set(f, support.least_distance2)), inside);
     }
     // To a register and from there to memory: compressing straight to memory is very slow on some processors.
-    hn::StoreU(hn::Compress(beta, inside), f, pending.beta + pending.count);
-    hn::StoreU(hn::Compress(alpha2, inside), f, pending.alpha2 + pending.count);
+    hn::StoreU(hn::Compress(beta, inside), f, pending.beta + count);
+    hn::StoreU(hn::Compress(alpha2, inside), f, pending.alpha2 + count);
     if constexpr (kSoft) {
-      hn::StoreU(hn::Compress(cosine, inside), f, pending.cosine + pending.count);
+      hn::StoreU(hn::Compress(cosine, inside), f, pending.cosine + count);
     }
-    pending.count += hn::CountTrue(f, inside);
+    count += hn::CountTrue(f, inside);
   }
+  return count;
 }
 
 // The place of N points in the image: the cell, and where in it.
@@ -196,23 +200,38 @@ HWY_INLINE Place place_of(VF beta, VF alpha2, const Support& support) {
   }
 }
 
+// `share`, in [0, 1], in the unit of the sums, plus kBias: between 1 and 2 that is what the bits of a float count. Much
+// cheaper than a conversion; the biases are taken off the sums.
 HWY_INLINE VI in_units(VF share) {
-  return hn::NearestInt(hn::Mul(share, hn::Set(F(), kOne)));
+  return hn::BitCast(I(), hn::Add(share, hn::Set(F(), 1.0F)));
 }
 
-// Fills in the cells and shares of all pending points, a vector at a time.
+// factor * index, for an index that is a whole number below 2^23 / factor: what the bits of a float between 2^23 /
+// factor and twice that count.
+template <std::int32_t kFactor>
+HWY_INLINE VI scaled_index(VF index) {
+  const VF low = hn::Set(F(), static_cast<float>(kOne / kFactor));
+  return hn::And(hn::BitCast(I(), hn::Add(index, low)), hn::Set(I(), kOne - 1));
+}
+
+// How many sums a cell has.
+template <Binning kBinning, bool kSoft>
+constexpr std::size_t kSums = kBinning == Binning::bilinear ? 4 : (kSoft ? 2 : 1);
+
+// Fills in the cells and shares of `count` pending points, a vector at a time.
 template <SpinConvention kConvention, Binning kBinning, bool kSoft>
-HWY_INLINE void place_pending(const Support& support, const CellLayout& layout, Pending& pending) {
+HWY_INLINE void place_pending(const Support& support, const CellLayout& layout, Pending& pending, std::size_t count) {
   const F f;
   const I i;
-  hn::StoreU(hn::Zero(f), f, pending.beta + pending.count);  // what lies behind the last one is computed but not used
-  hn::StoreU(hn::Zero(f), f, pending.alpha2 + pending.count);
-  hn::StoreU(hn::Zero(f), f, pending.cosine + pending.count);
+  hn::StoreU(hn::Zero(f), f, pending.beta + count);  // what lies behind the last one is computed but not used
+  hn::StoreU(hn::Zero(f), f, pending.alpha2 + count);
+  hn::StoreU(hn::Zero(f), f, pending.cosine + count);
   const VF stride = hn::Set(f, static_cast<float>(layout.row_stride));
-  const VI one = hn::Set(i, 1 << 30);
-  for (std::size_t k = 0; k < pending.count; k += hn::Lanes(f)) {
+  const VI one = hn::Set(i, kOne);
+  for (std::size_t k = 0; k < count; k += hn::Lanes(f)) {
     const Place at = place_of<kConvention>(hn::Load(f, pending.beta + k), hn::Load(f, pending.alpha2 + k), support);
-    hn::Store(hn::ConvertTo(i, hn::Add(hn::Mul(at.row, stride), at.column)), i, pending.cell + k);
+    const VF cell = hn::Add(hn::Mul(at.row, stride), at.column);
+    hn::Store(scaled_index<kSums<kBinning, kSoft>>(cell), i, pending.cell + k);
     VF weight = hn::Zero(f);
     if constexpr (kSoft) {
       const VF cosine = hn::Load(f, pending.cosine + k);
@@ -227,7 +246,7 @@ HWY_INLINE void place_pending(const Support& support, const CellLayout& layout, 
                               in_units(hn::Mul(weight, uv)), i, pending.weighted + 4 * k);
       }
     } else if constexpr (kSoft) {
-      hn::StoreInterleaved2(in_units(weight), one, i, pending.shares + 2 * k);
+      hn::StoreInterleaved2(one, in_units(weight), i, pending.shares + 2 * k);
     }
   }
 }
@@ -235,7 +254,7 @@ HWY_INLINE void place_pending(const Support& support, const CellLayout& layout, 
 // ---- Adding to the sums
 // ----------------------------------------------------------------------------------------------
 
-// cells[kNumbers * cell] += shares, kNumbers integers at once.
+// Adds kNumbers shares to as many sums at once.
 template <std::size_t kNumbers>
 HWY_INLINE void add_shares(const std::int32_t* shares, std::int64_t* sums) {
   const hn::CappedTag<std::int64_t, kNumbers> d;
@@ -245,16 +264,15 @@ HWY_INLINE void add_shares(const std::int32_t* shares, std::int64_t* sums) {
   }
 }
 
-// Neighbouring points often fall into the same cell, and an addition to it must wait for the one before. So the points
-// are taken from kStreams places of the list in turn, which the integer sums allow.
+// The points are taken from kStreams places of the list in turn, so that those of one group come one by one.
 template <std::size_t kNumbers>
 HWY_INLINE void scatter(const std::int32_t* cell, const std::int32_t* shares, std::size_t count, std::int64_t* cells) {
   constexpr std::size_t kStreams = 8;
   const std::size_t length = count / kStreams;
   const auto add = [&](std::size_t k) {
-    std::int64_t* sums = cells + kNumbers * static_cast<std::uint32_t>(cell[k]);
+    std::int64_t* sums = cells + static_cast<std::uint32_t>(cell[k]);
     if constexpr (kNumbers == 1) {
-      *sums += std::int64_t{1} << 30;
+      *sums += kOne;
     } else {
       add_shares<kNumbers>(shares + kNumbers * k, sums);
     }
@@ -270,38 +288,50 @@ HWY_INLINE void scatter(const std::int32_t* cell, const std::int32_t* shares, st
 }
 
 template <SpinConvention kConvention, Binning kBinning, bool kSoft>
-HWY_INLINE void add_pending(const Support& support, const CellLayout& layout, Pending& pending, std::int64_t* cells) {
-  place_pending<kConvention, kBinning, kSoft>(support, layout, pending);
-  if constexpr (kBinning == Binning::nearest) {
-    scatter<kSoft ? 2 : 1>(pending.cell, pending.shares, pending.count, cells);
-  } else if constexpr (kSoft) {
-    scatter<4>(pending.cell, pending.weighted, pending.count, cells);
-    scatter<4>(pending.cell, pending.shares, pending.count, cells + layout.plane_stride);
-  } else {
-    scatter<4>(pending.cell, pending.shares, pending.count, cells);
+HWY_INLINE void add_pending(const Support& support, const CellLayout& layout, Pending& pending, std::size_t count,
+                            std::int64_t* cells) {
+  place_pending<kConvention, kBinning, kSoft>(support, layout, pending, count);
+  scatter<kSums<kBinning, kSoft>>(pending.cell, pending.shares, count, cells);
+  if constexpr (kBinning == Binning::bilinear && kSoft) {
+    scatter<4>(pending.cell, pending.weighted, count, cells + layout.plane_stride);
   }
-  pending.count = 0;
 }
 
+// A step through a list that visits all of it, each time far from the last few places: the golden section of its
+// length.
+std::size_t far_step(std::size_t length) {
+  auto step = static_cast<std::size_t>(0.618 * static_cast<double>(length));
+  while (std::gcd(step, length) > 1) {
+    ++step;
+  }
+  return std::max<std::size_t>(step, 1);
+}
+
+// Groups are taken in an order that jumps about: neighbours fall into the same cells, and an addition to a cell must
+// wait for the one before.
 template <SpinConvention kConvention, Binning kBinning, bool kSoft, bool kTestsAngle>
 void accumulate_as(const SurfaceGroups& surface, const Support& support, const SpinPoint& p,
                    std::span<const std::uint32_t> tiles, std::int64_t* cells) {
   const CellLayout layout(support);
   const Probe probe(p);
   Pending pending;
-  std::array<std::uint32_t, kTileGroups> seen;
+  std::array<std::uint32_t, kTilesAtOnce * kTileGroups> seen;
+  std::size_t count = 0;
   for (const std::uint32_t tile : tiles) {
     const std::size_t first = tile * kTileGroups;
     const std::size_t last = std::min(first + kTileGroups, surface.groups());
-    const std::size_t count = select(surface.group_bounds(), first, last, support, probe, seen.data());
-    for (std::size_t k = 0; k < count; ++k) {
-      scan_group<kConvention, kSoft, kTestsAngle>(surface.group(seen[k]), support, probe, pending);
-      if (pending.count > Pending::kFull) {
-        add_pending<kConvention, kBinning, kSoft>(support, layout, pending, cells);
-      }
+    count += select(surface.group_bounds(), first, last, support, probe, seen.data() + count);
+  }
+  const std::size_t step = far_step(count);
+  std::size_t accepted = 0;
+  for (std::size_t k = 0, at = 0; k < count; ++k, at = at + step < count ? at + step : at + step - count) {
+    accepted = scan_group<kConvention, kSoft, kTestsAngle>(surface.group(seen[at]), support, probe, pending, accepted);
+    if (accepted > Pending::kFull) {
+      add_pending<kConvention, kBinning, kSoft>(support, layout, pending, accepted, cells);
+      accepted = 0;
     }
   }
-  add_pending<kConvention, kBinning, kSoft>(support, layout, pending, cells);
+  add_pending<kConvention, kBinning, kSoft>(support, layout, pending, accepted, cells);
 }
 
 void accumulate(const SurfaceGroups& surface, const Support& support, const SpinPoint& p,
@@ -332,13 +362,13 @@ using L = hn::ScalableTag<std::int64_t>;
 using D = hn::RebindToFloat<L>;
 using VL = hn::Vec<L>;
 
-// Sums as a float image: numbers / divisor, correctly rounded to double and then to float; below zero (by a rounding of
-// u v) as zero. Writes a whole vector.
-HWY_INLINE void write_values(VL sums, double divisor, float* values) {
+// Sums as values of an image, rounded to double and then to float; below zero (by a rounding of u v) as zero. Writes a
+// whole vector.
+HWY_INLINE void write_values(VL sums, double factor, float* values) {
   const D d;
   const hn::Rebind<float, D> narrow;
   const auto positive = hn::Max(hn::ConvertTo(d, sums), hn::Zero(d));
-  hn::StoreU(hn::DemoteTo(narrow, hn::Div(positive, hn::Set(d, divisor))), narrow, values);
+  hn::StoreU(hn::DemoteTo(narrow, hn::Mul(positive, hn::Set(d, factor))), narrow, values);
 }
 
 // The shares that the cells of one row give to their four neighbours, as running arrays with a zero on the left.
@@ -359,27 +389,50 @@ struct RowShares {
   }
 };
 
-// The shares of the row of cells at `sums` less, where it is given, those of the row at `minus`.
-HWY_INLINE void split_row(const std::int64_t* sums, const std::int64_t* minus, std::size_t columns, RowShares& row) {
+// The sums of the moments 1, u, v, uv of a vector of cells.
+struct Moments {
+  VL one, u, v, uv;
+};
+
+// Those of plain sums. kBias times the number of points is 127 times `one`.
+HWY_INLINE Moments plain_moments(const std::int64_t* sums) {
+  VL one, u, v, uv;
+  hn::LoadInterleaved4(L(), sums, one, u, v, uv);
+  const VL bias = hn::Sub(hn::ShiftLeft<7>(one), one);
+  return {one, hn::Sub(u, bias), hn::Sub(v, bias), hn::Sub(uv, bias)};
+}
+
+// Those of weighted sums, given the plain ones of the same cells.
+HWY_INLINE Moments weighted_moments(const std::int64_t* sums, const Moments& plain) {
+  VL one, u, v, uv;
+  hn::LoadInterleaved4(L(), sums, one, u, v, uv);
+  const VL bias = hn::Sub(hn::ShiftLeft<7>(plain.one), plain.one);
+  return {hn::Sub(one, bias), hn::Sub(u, bias), hn::Sub(v, bias), hn::Sub(uv, bias)};
+}
+
+HWY_INLINE Moments difference(const Moments& a, const Moments& b) {
+  return {hn::Sub(a.one, b.one), hn::Sub(a.u, b.u), hn::Sub(a.v, b.v), hn::Sub(a.uv, b.uv)};
+}
+
+// What a channel of the image is made of.
+enum class Channel { plain, weighted, rest };  // rest = plain - weighted
+
+template <Channel kChannel>
+HWY_INLINE void split_row(const std::int64_t* sums, std::size_t plane_stride, std::size_t columns, RowShares& row) {
   const L l;
   for (std::size_t j = 0; j < columns; j += hn::Lanes(l)) {
-    VL one, u, v, uv;
-    hn::LoadInterleaved4(l, sums + 4 * j, one, u, v, uv);
-    if (minus != nullptr) {
-      VL w, wu, wv, wuv;
-      hn::LoadInterleaved4(l, minus + 4 * j, w, wu, wv, wuv);
-      one = hn::Sub(one, w);
-      u = hn::Sub(u, wu);
-      v = hn::Sub(v, wv);
-      uv = hn::Sub(uv, wuv);
+    Moments m = plain_moments(sums + 4 * j);
+    if constexpr (kChannel != Channel::plain) {
+      const Moments weighted = weighted_moments(sums + plane_stride + 4 * j, m);
+      m = kChannel == Channel::weighted ? weighted : difference(m, weighted);
     }
-    const VL u_only = hn::Sub(u, uv);
-    const VL v_only = hn::Sub(v, uv);
+    const VL u_only = hn::Sub(m.u, m.uv);
+    const VL v_only = hn::Sub(m.v, m.uv);
     const std::size_t at = RowShares::kLeft + j;
-    hn::Store(hn::Sub(hn::Sub(one, u), v_only), l, row.here + at);
+    hn::Store(hn::Sub(hn::Sub(m.one, m.u), v_only), l, row.here + at);
     hn::Store(v_only, l, row.right + at);
     hn::Store(u_only, l, row.below + at);
-    hn::Store(uv, l, row.both + at);
+    hn::Store(m.uv, l, row.both + at);
   }
 }
 
@@ -389,8 +442,9 @@ struct ImageSize {
   std::size_t columns;
 };
 
-void finish_bilinear(const Support& support, const CellLayout& layout, const std::int64_t* sums,
-                     const std::int64_t* minus, double divisor, const ImageSize& size, float* image) {
+template <Channel kChannel>
+void finish_bilinear(const Support& support, const CellLayout& layout, const std::int64_t* cells, double factor,
+                     const ImageSize& size, float* image) {
   const L l;
   RowShares rows[2];
   alignas(64) float line[RowShares::kRoom];
@@ -401,8 +455,7 @@ void finish_bilinear(const Support& support, const CellLayout& layout, const std
     RowShares& row = rows[i % 2];
     const RowShares& above = rows[(i + 1) % 2];
     if (i < support.cell_rows) {
-      split_row(sums + i * row_numbers, minus != nullptr ? minus + i * row_numbers : nullptr, support.cell_columns,
-                row);
+      split_row<kChannel>(cells + i * row_numbers, layout.plane_stride, support.cell_columns, row);
     } else {
       row.clear(support.cell_columns);
     }
@@ -410,24 +463,34 @@ void finish_bilinear(const Support& support, const CellLayout& layout, const std
       const std::size_t at = RowShares::kLeft + j;
       const VL from_row = hn::Add(hn::Load(l, row.here + at), hn::LoadU(l, row.right + at - 1));
       const VL from_above = hn::Add(hn::Load(l, above.below + at), hn::LoadU(l, above.both + at - 1));
-      write_values(hn::Add(from_row, from_above), divisor, line + j);
+      write_values(hn::Add(from_row, from_above), factor, line + j);
     }
     std::copy_n(line, size.columns, image + i * size.columns);
   }
 }
 
-// Every cell is a value already; `weighted` chooses the channel of a soft image.
+// Every cell is a value already.
 void finish_nearest(const Support& support, const CellLayout& layout, const std::int64_t* cells, float* image) {
-  const std::size_t pixels = support.cell_rows * support.cell_columns;
-  const auto value = [](std::int64_t sum) { return static_cast<float>(static_cast<double>(sum) / kOne); };
+  const L l;
+  const std::size_t columns = support.cell_columns;
+  const std::size_t channel = support.cell_rows * columns;
+  alignas(64) float line[2][RowShares::kRoom];
   for (std::size_t i = 0; i < support.cell_rows; ++i) {
-    for (std::size_t j = 0; j < support.cell_columns; ++j) {
-      const std::int64_t* cell = cells + (i * layout.row_stride + j) * (support.soft ? 2 : 1);
-      float* to = image + i * support.cell_columns + j;
-      to[0] = value(cell[0]);
+    const std::int64_t* row = cells + i * layout.row_stride * (support.soft ? 2 : 1);
+    for (std::size_t j = 0; j < columns; j += hn::Lanes(l)) {
       if (support.soft) {
-        to[pixels] = value(cell[1] - cell[0]);
+        VL plain, weighted;
+        hn::LoadInterleaved2(l, row + 2 * j, plain, weighted);
+        weighted = hn::Sub(weighted, hn::Sub(hn::ShiftLeft<7>(plain), plain));
+        write_values(weighted, kUnit, line[0] + j);
+        write_values(hn::Sub(plain, weighted), kUnit, line[1] + j);
+      } else {
+        write_values(hn::Load(l, row + j), kUnit, line[0] + j);
       }
+    }
+    std::copy_n(line[0], columns, image + i * columns);
+    if (support.soft) {
+      std::copy_n(line[1], columns, image + channel + i * columns);
     }
   }
 }
@@ -448,13 +511,14 @@ void finish(const Support& support, std::int64_t* cells, std::span<float> image)
   } else if (support.convention == SpinConvention::pcl) {
     const double total = total_of(layout, cells);
     const ImageSize size{support.cell_rows + 1, support.cell_columns + 1};
-    finish_bilinear(support, layout, cells, nullptr, total > 0.0 ? total : 1.0, size, image.data());
+    finish_bilinear<Channel::plain>(support, layout, cells, total > 0.0 ? 1.0 / total : 0.0, size, image.data());
   } else {
     const ImageSize size{support.cell_rows, support.cell_columns};
-    finish_bilinear(support, layout, cells, nullptr, kOne, size, image.data());
     if (support.soft) {
-      finish_bilinear(support, layout, cells + layout.plane_stride, cells, kOne, size,
-                      image.data() + size.rows * size.columns);
+      finish_bilinear<Channel::weighted>(support, layout, cells, kUnit, size, image.data());
+      finish_bilinear<Channel::rest>(support, layout, cells, kUnit, size, image.data() + size.rows * size.columns);
+    } else {
+      finish_bilinear<Channel::plain>(support, layout, cells, kUnit, size, image.data());
     }
   }
   std::fill_n(cells, layout.size, 0);

@@ -13,21 +13,23 @@
 
 namespace spincat {
 
+inline constexpr std::size_t kTilesAtOnce = 8;  // so many stay in a second-level cache
+
 // The oriented point an image is made for.
 struct SpinPoint {
   float x, y, z, nx, ny, nz;
 };
 
 // How the sums of one image are laid out while it is made. A cell holds sums over the points that fell into it, as
-// integers in units of 2^-30: exact, so that they come out the same in whatever order and on however many threads they
+// integers in units of 2^-23: exact, so that they come out the same in whatever order and on however many threads they
 // are added. Bilinear binning sums the moments 1, u, v, uv of the place (u, v) in the cell, from which the shares of
 // the four neighbours follow; nearest binning sums 1. A soft angle test sums the same once more, weighted by the
-// squared cosine.
+// squared cosine. All sums but those of 1 have a known bias (kernel.cpp).
 //
 //   bilinear        [cell][1 u v uv]
-//   bilinear, soft  [weighted, plain][cell][1 u v uv]
+//   bilinear, soft  [plain, weighted][cell][1 u v uv]
 //   nearest         [cell]
-//   nearest, soft   [cell][weighted, plain]
+//   nearest, soft   [cell][plain, weighted]
 struct CellLayout {
   explicit CellLayout(const Support& support);
 
@@ -44,7 +46,7 @@ struct SpinKernel {
   std::size_t (*select_tiles)(const SurfaceGroups& surface, const Support& support, const SpinPoint& p,
                               std::uint32_t* tiles);
 
-  // Adds to `cells` what the points of these tiles contribute to the image of `p`.
+  // Adds to `cells` what the points of these tiles, at most kTilesAtOnce, contribute to the image of `p`.
   void (*accumulate)(const SurfaceGroups& surface, const Support& support, const SpinPoint& p,
                      std::span<const std::uint32_t> tiles, std::int64_t* cells);
 

@@ -17,11 +17,10 @@ namespace {
 using Sums = std::vector<std::int64_t, AlignedAllocator<std::int64_t>>;
 using TileList = std::vector<std::uint32_t>;
 
-// Images under way at a time, and tiles of the surface that pass through the cache for all of them: together about half
-// of a usual second-level cache.
+// Images under way at a time: kTilesAtOnce tiles of the surface stay in the second-level cache for all of them, and so
+// do their sums.
 constexpr std::size_t kMostImages = 16;
 constexpr std::size_t kSumsBytes = 384 * 1024;
-constexpr std::size_t kTilesInCache = 8;
 
 SpinPoint spin_point(const OrientedPoints& points, std::size_t k) {
   return {points.x()[k], points.y()[k], points.z()[k], points.nx()[k], points.ny()[k], points.nz()[k]};
@@ -77,24 +76,46 @@ class SpinImageMaker::Engine {
     return order;
   }
 
+  // The surface passes through the cache in portions of about kTilesAtOnce tiles, each used for all images of a group:
+  // every portions()-th tile, so that its points fall into many different cells of an image.
+  std::size_t portions() const { return std::max<std::size_t>(tiles() / kTilesAtOnce, 1); }
+
+  // The tiles of [begin, end) that may lie in the support of `p`: rising if they are few, else portion by portion.
+  TileList seen_tiles(const SpinPoint& p, std::size_t begin, std::size_t end) const {
+    TileList list(tiles());
+    list.resize(kernel_.select_tiles(surface_, support_, p, list.data()));
+    std::erase_if(list, [&](std::uint32_t tile) { return tile < begin || tile >= end; });
+    if (list.size() > kTilesAtOnce) {
+      std::ranges::stable_sort(list, {}, [&](std::uint32_t tile) { return tile % portions(); });
+    }
+    return list;
+  }
+
   // Adds what the tiles [begin, end) contribute to the images of `group`, to one set of sums an image.
   void sum_tiles(const OrientedPoints& spin_points, std::span<const std::size_t> group, std::size_t begin,
                  std::size_t end, std::int64_t* sums) const {
-    std::vector<TileList> seen(group.size(), TileList(tiles()));
+    std::vector<TileList> seen(group.size());
+    std::vector<std::size_t> done(group.size(), 0);
     for (std::size_t g = 0; g < group.size(); ++g) {
-      TileList& list = seen[g];
-      list.resize(kernel_.select_tiles(surface_, support_, spin_point(spin_points, group[g]), list.data()));
+      seen[g] = seen_tiles(spin_point(spin_points, group[g]), begin, end);
     }
-    for (std::size_t from = begin; from < end; from += kTilesInCache) {
-      const std::size_t to = std::min(from + kTilesInCache, end);
+    for (std::size_t portion = 0; portion < portions(); ++portion) {
       for (std::size_t g = 0; g < group.size(); ++g) {
-        const auto low = std::ranges::lower_bound(seen[g], from);
-        const auto high = std::lower_bound(low, seen[g].end(), to);
-        if (low != high) {
-          kernel_.accumulate(surface_, support_, spin_point(spin_points, group[g]), {low, high},
-                             sums + g * layout_.size);
-        }
+        const std::span rest = std::span(seen[g]).subspan(done[g]);
+        const bool few = seen[g].size() <= kTilesAtOnce;
+        const auto end_of_portion =
+            few ? rest.end() : std::ranges::find_if(rest, [&](auto tile) { return tile % portions() != portion; });
+        sum_portion(spin_point(spin_points, group[g]), {rest.begin(), end_of_portion}, sums + g * layout_.size);
+        done[g] += static_cast<std::size_t>(end_of_portion - rest.begin());
       }
+    }
+  }
+
+  void sum_portion(const SpinPoint& p, std::span<const std::uint32_t> tiles_of_it, std::int64_t* sums) const {
+    while (!tiles_of_it.empty()) {
+      const auto now = tiles_of_it.first(std::min(tiles_of_it.size(), kTilesAtOnce));
+      kernel_.accumulate(surface_, support_, p, now, sums);
+      tiles_of_it = tiles_of_it.subspan(now.size());
     }
   }
 

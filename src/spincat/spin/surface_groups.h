@@ -60,11 +60,13 @@ class SurfaceGroups {
 
  private:
   void choose_cells(const OrientedPoints& surface);
+  bool sees_everything(const Support& support) const;
   std::vector<std::uint32_t> curve_order(const OrientedPoints& surface) const;
   void copy_points(const OrientedPoints& surface, const std::vector<std::uint32_t>& order);
 
   unsigned bits_ = 0;           // of a cell's coordinate along each axis
   std::array<float, 3> low_{};  // corner of the bounding box
+  float diagonal_ = 0.0F;       // of that box
   float cells_per_unit_ = 0.0F;
   AlignedFloats points_;
   Bounds group_bounds_;

@@ -15,7 +15,8 @@ struct DatasetObject {
   std::string split;           // "train", "test", ... where the data set has an official split; else empty
 };
 
-// Something that the data set names and that cannot be used, with the reason.
+// Something that the data set names and that cannot be used, with the reason: a listed file that is not there, an
+// object outside every category's folder, a category's folder without objects, a class of the map that no source knows.
 struct SkippedObject {
   std::filesystem::path file;
   std::string reason;
@@ -25,7 +26,7 @@ struct Dataset {
   std::string name;                     // for titles: the argument as the user gave it
   std::vector<std::string> categories;  // sorted by name (byte order), each with at least one object
   std::vector<DatasetObject> objects;   // sorted by file, each file once
-  std::vector<SkippedObject> skipped;   // listed but not there, and the like; in the order they were met
+  std::vector<SkippedObject> skipped;   // in the order they were met
 };
 
 struct DatasetOptions {
@@ -39,16 +40,25 @@ struct DatasetOptions {
 
 // Reads a data set from one or more sources of any of these kinds, merged into one:
 //  - a folder with one sub-folder per category; objects may lie deeper. Sub-folders called train, test, val or
-//    validation, either directly inside the data set or directly inside each category (ModelNet), give the split and are
-//    no categories. Files that are no object files (textures, notes), and names that start with a dot, are passed over.
+//    validation, either directly inside the data set or directly inside each category (ModelNet), give the split and
+//    are no categories. Files that are no object files (textures, notes), and names that start with a dot, are passed
+//    over. Symbolic links are followed, each folder once a category.
 //  - a folder with classification/*.cla and db/ inside: the Princeton Shape Benchmark, all its .cla files merged
 //  - a CSV file with a header line that names at least the columns path and category, and maybe split; lines that start
 //    with # are comments; other columns are ignored; quoting by RFC 4180
-//  - a classification file of the Princeton Shape Benchmark (.cla); the leaf classes are the categories; the split is
-//    the file's own name without its extension, when that is train or test. Model N is N/100/mN/mN.off below `models`.
-// The order does not depend on the file system's. Deterministic.
-// Throws InputError when a source is missing or malformed (with its line), when no object is left, when only one
-// category is left, or when two sources give one file different categories.
+//  - a classification file of the Princeton Shape Benchmark (.cla); the classes that list models themselves are the
+//    categories; the split is the file's own name without its extension, when that is train or test. Model N is
+//    N/100/mN/mN.off below `models`.
+//
+// A file is known again under another name (a link, a/../b) and kept under the name that sorts first. The order does
+// not depend on the file system's nor on that of the sources. Deterministic.
+//
+// Throws InputError when a source is missing, cannot be read or is malformed (with its line), when no object is left,
+// when only one category is left, or when one file is given two categories or two splits.
 Dataset read_dataset(const std::vector<std::filesystem::path>& sources, const DatasetOptions& options = {});
+
+// The part of a data set with an official split that judges may learn from: the objects of the split "train" and those
+// without one, and the categories that have such objects. The whole data set when nothing is marked "train".
+Dataset training_part(const Dataset& dataset);
 
 }  // namespace spincat

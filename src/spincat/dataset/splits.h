@@ -13,16 +13,21 @@ struct Split {
   std::vector<std::uint32_t> test;
 };
 
-// `count` independent random splits. Of every category with n objects, round(n * test_fraction) go to the test part (ties
-// to even), but at least 1 and at most n - 1; a category with one object is only ever trained on.
+// `count` independent random splits. Of every category with n objects, round(n * test_fraction) go to the test part
+// (ties to even), but at least 1 and at most n - 1; a category with one object is only ever trained on.
+//
 // `labels` holds the category of each object. Deterministic: the same labels, count, fraction and seed give the same
 // splits on every machine, and split i does not depend on `count`.
+//
 // Throws InputError unless 0 < test_fraction < 1, count > 0, and some category has two objects.
 std::vector<Split> stratified_splits(std::span<const std::uint32_t> labels, int count, double test_fraction,
                                      std::uint64_t seed);
 
 // Cuts the objects into `folds` stratified parts that together hold each object once as a test object (k-fold cross-
-// validation); folds may be as many as there are objects (leave-one-out). Deterministic, as above.
+// validation); folds may be as many as there are objects (leave-one-out). The test parts differ by at most one object,
+// in all and in each category. When a category's only object is tested, nothing of that category is trained on.
+// Deterministic, as above.
+//
 // Throws InputError unless 2 <= folds <= labels.size().
 std::vector<Split> stratified_folds(std::span<const std::uint32_t> labels, int folds, std::uint64_t seed);
 

@@ -41,6 +41,8 @@ class Concatenation final : public Encoding {
 
 }  // namespace
 
-std::unique_ptr<Encoding> make_concatenation() { return std::make_unique<Concatenation>(); }
+std::unique_ptr<Encoding> make_concatenation() {
+  return std::make_unique<Concatenation>();
+}
 
 }  // namespace spincat

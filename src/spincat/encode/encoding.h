@@ -55,8 +55,8 @@ class Encoding::ObjectSums {
 // points: M W W numbers, scaled to length 1 together.
 std::unique_ptr<Encoding> make_concatenation();
 
-// Our default: each image is reduced to a pyramid of three smaller ones (the inner quarter at full resolution, the inner
-// half and the whole, coarser), square roots are taken, and the mean and the standard deviation of every bin over
+// Our default: each image is reduced to a pyramid of three smaller ones (the inner quarter at full resolution, the
+// inner half and the whole, coarser), square roots are taken, and the mean and the standard deviation of every bin over
 // the spin points of each of four bands is one feature; docs/encoding.md. Needs an image width divisible by 8 in the
 // johnson convention.
 std::unique_ptr<Encoding> make_pooled_pyramid();

@@ -14,9 +14,9 @@
 namespace spincat {
 namespace {
 
-constexpr std::size_t kLevels = 3;  // of the pyramid: single cells, sums of 2 x 2, sums of 4 x 4
-constexpr std::size_t kBands = 4;   // into which the spin points are sorted
-constexpr std::size_t kMoments = 2; // mean and standard deviation
+constexpr std::size_t kLevels = 3;   // of the pyramid: single cells, sums of 2 x 2, sums of 4 x 4
+constexpr std::size_t kBands = 4;    // into which the spin points are sorted
+constexpr std::size_t kMoments = 2;  // mean and standard deviation
 
 // Which of the four bands each spin point belongs to. With g the mean of the surface points, r = |p - g| and
 // h = |(p - g) . n|: halves by r, then each half into halves by h. Both turn with the object, so that the same place on
@@ -144,9 +144,10 @@ class PooledPyramid final : public Encoding {
 
   void check(const SpinImageParams& params) const override {
     if (params.convention != SpinConvention::johnson || params.image_width % 8 != 0) {
-      throw InputError(fmt::format("the pooled-pyramid encoding needs the johnson convention and an image width "
-                                   "divisible by 8, not {}",
-                                   params.image_width));
+      throw InputError(
+          fmt::format("the pooled-pyramid encoding needs the johnson convention and an image width "
+                      "divisible by 8, not {}",
+                      params.image_width));
     }
   }
 
@@ -158,6 +159,8 @@ class PooledPyramid final : public Encoding {
 
 }  // namespace
 
-std::unique_ptr<Encoding> make_pooled_pyramid() { return std::make_unique<PooledPyramid>(); }
+std::unique_ptr<Encoding> make_pooled_pyramid() {
+  return std::make_unique<PooledPyramid>();
+}
 
 }  // namespace spincat

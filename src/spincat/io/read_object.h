@@ -1,6 +1,7 @@
 // One front door for reading an object from a file, whatever its format.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -15,17 +16,23 @@ struct ReadLimits {
   std::size_t max_triangles = 200'000'000;  // after polygons are cut into triangles
 };
 
-// Reads an OFF, OBJ, PLY, STL, PCD, XYZ, glTF or GLB file; the extension decides, upper or lower case.
-// Polygons become fans of triangles. A file with vertices but no faces becomes a PointCloud. glTF nodes are placed by
-// their transforms. Deterministic.
-// Throws InputError (file, and the line where there are lines) when the file is missing, damaged, of another format, or
-// holds neither a face nor a point; a spincat model handed in by mistake is recognised and named as such.
+// Reads an OFF, OBJ, PLY, STL, PCD, XYZ, glTF or GLB file; the extension decides, upper or lower case. XYZ files are
+// also called .xyzn, .pts, .asc or .txt.
+// Polygons become fans of triangles; faces of one or two corners are passed over. A file with vertices but no faces
+// becomes a PointCloud, and its points that are not finite ("nothing measured") are left out; in a mesh they are an
+// error. Equal vertices are merged in STL alone, where every triangle repeats its own. glTF nodes are placed by their
+// transforms. The sensor is known from a PCD file's VIEWPOINT, unless that is the default (0 0 0 1 0 0 0), which most
+// programs write when they know nothing. Deterministic.
+// Throws RunError when the memory does not suffice, InputError (file, and the line where there are lines) when the file
+// is missing, damaged, of another format, or holds neither a face nor a point; a spincat model handed in by mistake is
+// recognised and named as such.
 Object read_object(const std::filesystem::path& file, const ReadLimits& limits = {});
 
-// Whether read_object knows this file's extension.
+// Whether a file in a folder of objects is meant as one: read_object knows its extension, which is not .txt (there,
+// those are notes).
 bool is_object_file(const std::filesystem::path& file);
 
-// The extensions that read_object knows, in lower case with their dot.
+// The extensions of object files (as above, so without .txt), in lower case with their dot.
 const std::vector<std::string>& object_extensions();
 
 }  // namespace spincat

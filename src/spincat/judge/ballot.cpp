@@ -32,8 +32,8 @@ Ballot count_votes(std::uint32_t categories, std::span<const float> margins) {
   ballot.winner = order[0];
   ballot.runner_up = order[1];
   if (ballot.count[order[0]] == ballot.count[order[1]]) {
-    ballot.tie_break = ballot.margin_sum[order[0]] > ballot.margin_sum[order[1]] ? TieBreak::margins
-                                                                                   : TieBreak::first_one;
+    ballot.tie_break =
+        ballot.margin_sum[order[0]] > ballot.margin_sum[order[1]] ? TieBreak::margins : TieBreak::first_one;
   }
   ballot.weakest_margin = weakest[ballot.winner];
   return ballot;

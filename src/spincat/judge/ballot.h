@@ -22,9 +22,9 @@ enum class TieBreak {
 };
 
 struct Ballot {
-  std::vector<Vote> votes;          // of all L = n (n - 1) / 2 judges, in the order (0,1), (0,2), ..., (1,2), ...
+  std::vector<Vote> votes;           // of all L = n (n - 1) / 2 judges, in the order (0,1), (0,2), ..., (1,2), ...
   std::vector<std::uint32_t> count;  // votes for each category
-  std::vector<float> margin_sum;    // for each category: its judges' margins, signed in its favour, added up
+  std::vector<float> margin_sum;     // for each category: its judges' margins, signed in its favour, added up
   std::uint32_t winner = 0;
   std::uint32_t runner_up = 0;  // the best of the others, by the same rules
   TieBreak tie_break = TieBreak::none;

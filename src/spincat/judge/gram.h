@@ -11,9 +11,9 @@ namespace spincat {
 // One feature vector a row.
 using FeatureMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// K(i, j) = x_i . x_j, symmetric, in single precision. Computed once for all judges: retraining on any subset of the rows
-// (each pair of categories, each split) only picks entries.
-// The same bytes for any number of threads: tiles of a fixed size, each summed in one order.
+// K(i, j) = x_i . x_j, symmetric, in single precision. Computed once for all judges: retraining on any subset of the
+// rows (each pair of categories, each split) only picks entries. The same bytes for any number of threads: tiles of a
+// fixed size, each summed in one order.
 Eigen::MatrixXf gram_matrix(const FeatureMatrix& features, int threads);
 
 }  // namespace spincat

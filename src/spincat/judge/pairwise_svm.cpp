@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
-#include <numeric>
+#include <span>
 
 namespace spincat {
 namespace {
@@ -14,18 +14,21 @@ struct ModelDeleter {
   void operator()(svm_model* model) const { svm_free_and_destroy_model(&model); }
 };
 
-// The sub-matrix of some rows in libsvm's layout: for each object a node with its serial number (1, 2, ...), then one
-// node for each kernel value.
+// A Gram matrix in libsvm's layout: for each object a node with its serial number (1, 2, ...), then one node for each
+// kernel value.
 class PrecomputedKernel {
  public:
-  PrecomputedKernel(const Eigen::MatrixXf& gram, std::span<const std::uint32_t> rows)
-      : nodes_(rows.size() * (rows.size() + 2)), objects_(rows.size()) {
-    const std::size_t n = rows.size();
+  explicit PrecomputedKernel(const Eigen::MatrixXf& gram) {
+    const auto n = static_cast<std::size_t>(gram.rows());
+    nodes_.resize(n * (n + 2));
+    objects_.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
       svm_node* node = objects_[i] = nodes_.data() + i * (n + 2);
       *node++ = {0, static_cast<double>(i + 1)};
       for (std::size_t j = 0; j < n; ++j) {
-        *node++ = {static_cast<int>(j + 1), gram(rows[j], rows[i])};
+        const auto row = static_cast<Eigen::Index>(j);
+        const auto column = static_cast<Eigen::Index>(i);
+        *node++ = {static_cast<int>(j + 1), gram(row, column)};
       }
       *node = {-1, 0.0};
     }
@@ -54,30 +57,25 @@ svm_parameter parameters(std::span<int, 2> labels, std::span<double, 2> weights)
 
 }  // namespace
 
-PairwiseSvm train_pairwise_svm(const Eigen::MatrixXf& gram, std::span<const std::uint32_t> first,
-                               std::span<const std::uint32_t> second, double c_first, double c_second) {
+PairwiseSvm train_pairwise_svm(const Eigen::MatrixXf& gram, std::uint32_t first_count, double c_first,
+                               double c_second) {
   // libsvm writes to standard output unless it is told where else; the library never prints.
   static const bool quiet = (svm_set_print_string_function([](const char*) {}), true);
   static_cast<void>(quiet);
 
-  std::vector<std::uint32_t> rows(first.begin(), first.end());
-  rows.insert(rows.end(), second.begin(), second.end());
-  std::vector<double> y(rows.size(), -1.0);
-  std::fill_n(y.begin(), first.size(), 1.0);  // libsvm's sign follows the label that it meets first
-  PrecomputedKernel kernel(gram, rows);
+  std::vector<double> y(static_cast<std::size_t>(gram.rows()), -1.0);
+  std::fill_n(y.begin(), first_count, 1.0);  // libsvm's sign follows the label that it meets first
+  PrecomputedKernel kernel(gram);
   std::array<int, 2> labels = {1, -1};
   std::array<double, 2> weights = {c_first, c_second};
   const svm_parameter parameter = parameters(labels, weights);
-  const svm_problem problem{static_cast<int>(rows.size()), y.data(), kernel.objects()};
+  const svm_problem problem{static_cast<int>(y.size()), y.data(), kernel.objects()};
   const std::unique_ptr<svm_model, ModelDeleter> model(svm_train(&problem, &parameter));
 
   PairwiseSvm svm;
   svm.bias = -model->rho[0];
-  std::vector<int> order(model->l);
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order, {}, [&](int s) { return rows[model->sv_indices[s] - 1]; });
-  for (const int s : order) {
-    svm.row.push_back(rows[model->sv_indices[s] - 1]);
+  for (int s = 0; s < model->l; ++s) {  // libsvm keeps the order of the objects within each category
+    svm.object.push_back(static_cast<std::uint32_t>(model->sv_indices[s] - 1));
     svm.coefficient.push_back(model->sv_coef[0][s]);
   }
   return svm;

@@ -213,9 +213,8 @@ SurfacePoints even_out(const SurfacePoints& points, std::size_t count, Random& r
   std::vector<std::uint32_t> order(size);
   std::iota(order.begin(), order.end(), 0U);
   const std::size_t kept = std::min(count, size);
-  std::ranges::partial_sort(order, order.begin() + static_cast<std::ptrdiff_t>(kept), [&](auto a, auto b) {
-    return waiting[a] != waiting[b] ? waiting[a] < waiting[b] : a < b;
-  });
+  std::ranges::partial_sort(order, order.begin() + static_cast<std::ptrdiff_t>(kept),
+                            [&](auto a, auto b) { return waiting[a] != waiting[b] ? waiting[a] < waiting[b] : a < b; });
   SurfacePoints drawn;
   for (std::size_t k = 0; k < kept; ++k) {
     drawn.positions.push_back(points.positions[order[k]]);

@@ -29,7 +29,7 @@ Similarity unit_similarity(std::span<const Vec3> points) {
   }
   const double factor = 1.0 / furthest;
   if (!(furthest > 0.0) || !std::isfinite(factor) || !std::isfinite(furthest)) {
-    throw InputError(points.size() == 1 ? "holds only one point" : "all its points are the same");
+    throw InputError("all its points are at one place");
   }
   return {centre, factor};
 }

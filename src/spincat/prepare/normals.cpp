@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "spincat/prepare/point_tree.h"
+#include "spincat/prepare/repeats.h"
 
 namespace spincat {
 namespace {
@@ -17,24 +18,6 @@ namespace {
 Vec3 unit_or_up(const Vec3& v) {
   const double length = v.norm();
   return length > 0.0 ? Vec3(v / length) : Vec3(0.0, 0.0, 1.0);
-}
-
-// For each vertex the first vertex at exactly its position.
-std::vector<std::uint32_t> first_at_position(std::span<const Vec3> vertices) {
-  std::vector<std::uint32_t> order(vertices.size());
-  std::iota(order.begin(), order.end(), 0U);
-  const auto before = [&](std::uint32_t a, std::uint32_t b) {
-    const Vec3& p = vertices[a];
-    const Vec3& q = vertices[b];
-    return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
-  };
-  std::ranges::stable_sort(order, before);
-  std::vector<std::uint32_t> first(vertices.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool same = i > 0 && vertices[order[i]] == vertices[order[i - 1]];
-    first[order[i]] = same ? first[order[i - 1]] : order[i];
-  }
-  return first;
 }
 
 Vec3 direction_of_least_spread(std::span<const Vec3> points, std::span<const std::uint32_t> neighbours) {

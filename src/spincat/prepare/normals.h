@@ -26,8 +26,8 @@ std::vector<Vec3> estimated_normals(std::span<const Vec3> points, int neighbours
 // Turns every normal to the side of `sensor`: (sensor - p) . n >= 0.
 void orient_towards(std::span<const Vec3> points, const Vec3& sensor, std::span<Vec3> normals);
 
-// Turns every normal away from the points' centroid c: (p - c) . n >= 0. Right for convex objects and a repeatable guess
-// for all others.
+// Turns every normal away from the points' centroid c: (p - c) . n >= 0. Right for convex objects and a repeatable
+// guess for all others.
 void orient_outwards(std::span<const Vec3> points, std::span<Vec3> normals);
 
 }  // namespace spincat

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -15,6 +15,7 @@
 #include "spincat/prepare/external_surface.h"
 #include "spincat/prepare/normalise.h"
 #include "spincat/prepare/normals.h"
+#include "spincat/prepare/repeats.h"
 #include "spincat/prepare/resolution.h"
 #include "spincat/prepare/surface_samples.h"
 
@@ -88,21 +89,13 @@ std::vector<Vec3> cloud_normals(const PointCloud& cloud, const PrepareSettings& 
 
 // Each point once: the first of those at one place, in the order of the file.
 PointCloud without_repeats(const PointCloud& cloud) {
-  std::vector<std::size_t> order(cloud.points.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    order[i] = i;
-  }
-  const auto key = [&](std::size_t i) {
-    const Vec3& p = cloud.points[i];
-    return std::array{p.x(), p.y(), p.z()};
-  };
-  std::ranges::stable_sort(order, {}, key);
-  const auto repeats = std::ranges::unique(order, {}, key);
-  order.erase(repeats.begin(), repeats.end());
-  std::ranges::sort(order);
+  const std::vector<std::uint32_t> first = first_at_position(cloud.points);
   PointCloud result;
   result.sensor = cloud.sensor;
-  for (const std::size_t i : order) {
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (first[i] != i) {
+      continue;
+    }
     result.points.push_back(cloud.points[i]);
     if (!cloud.normals.empty()) {
       result.normals.push_back(cloud.normals[i]);
@@ -190,9 +183,6 @@ PreparedObject prepare(const Object& object, const PrepareSettings& settings, st
 }
 
 Object stretched_copy(const Object& object, int copy, double amount, std::uint64_t seed) {
-  if (copy == 0) {
-    return object;
-  }
   Random random(derive_seed(derive_seed(seed, kStretch), static_cast<std::uint64_t>(copy)));
   Vec3 factors;
   for (int axis = 0; axis < 3; ++axis) {

@@ -36,19 +36,18 @@ struct PreparedObject {
   OrientedPoints surface;      // normalised: centre of the bounding box at 0, furthest point at distance 1
   OrientedPoints spin_points;  // some of the surface's points, in random order
   double scale = 1.0;          // prepared units in one unit of the file
-  double resolution = 0.0;     // mesh resolution in prepared units: the median length of the mesh's edges, each edge once
-                               // (Johnson), or the median distance of a cloud's points to their nearest neighbour
+  double resolution = 0.0;  // mesh resolution in prepared units: the median length of the mesh's edges, each edge once
+                            // (Johnson), or the median distance of a cloud's points to their nearest neighbour
 };
 
 // Prepares a mesh or a cloud. Meshes without any area are treated as the cloud of their vertices. Repeated points of a
-// cloud count once. Where an object has fewer points than spin points are asked for, SurfaceKind::vertices repeats them,
-// so that an observation keeps its length (the paper's concatenation needs that), and the other kinds use what is there.
-// Deterministic: the same object, settings and seed give the same points, on any number of threads.
-// Throws InputError (without a file name) when the object has no extent: no points, or all at one place.
+// cloud count once. Where an object has fewer points than spin points are asked for, SurfaceKind::vertices repeats
+// them, so that an observation keeps its length (the paper's concatenation needs that), and the other kinds use what is
+// there. Deterministic: the same object, settings and seed give the same points, on any number of threads. Throws
+// InputError (without a file name) when the object has no extent: no points, or all at one place.
 PreparedObject prepare(const Object& object, const PrepareSettings& settings, std::uint64_t seed);
 
-// The training copy number `copy` (1, 2, ...) of an object: each axis stretched by exp(U(-amount, amount)).
-// Copy 0 is the object itself. Deterministic.
+// The training copy number `copy` of an object: each axis stretched by exp(U(-amount, amount)). Deterministic.
 Object stretched_copy(const Object& object, int copy, double amount, std::uint64_t seed);
 
 }  // namespace spincat

@@ -1,0 +1,199 @@
+#include "spincat/pipeline/classify.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "commands.h"
+#include "interrupt.h"
+#include "options.h"
+#include "progress_bar.h"
+#include "spincat/error.h"
+#include "spincat/io/read_object.h"
+#include "spincat/parallel/for_each.h"
+#include "spincat/report/json.h"
+#include "spincat/report/text.h"
+#include "spincat/report/text_table.h"
+
+namespace spincat::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ClassifyArguments {
+  fs::path model;
+  std::vector<fs::path> inputs;
+  bool votes = false;
+  RunOptions run;
+};
+
+// Files as they are; folders stand for all object files below them, sorted.
+std::vector<fs::path> expand_folders(const std::vector<fs::path>& inputs) {
+  std::vector<fs::path> files;
+  for (const fs::path& input : inputs) {
+    std::error_code error;
+    if (!fs::is_directory(input, error)) {
+      files.push_back(input);
+      continue;
+    }
+    const std::size_t before = files.size();
+    for (fs::recursive_directory_iterator it(input, error), end; it != end && !error; it.increment(error)) {
+      if (it->is_regular_file(error) && is_object_file(it->path())) {
+        files.push_back(it->path());
+      }
+    }
+    if (error) {
+      throw InputError(input.string(), error.message());
+    }
+    if (files.size() == before) {
+      throw InputError(input.string(), "holds no object files");
+    }
+    std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
+  }
+  return files;
+}
+
+// What became of one file.
+struct Answer {
+  std::optional<Classification> classification;
+  std::string error;  // the whole line, when there is no classification
+  bool done = false;
+};
+
+Answer answer_for(const Model& model, const fs::path& file) {
+  try {
+    return {classify_file(model, file), {}, true};
+  } catch (const std::bad_alloc&) {
+    return {{}, file.string() + ": not enough memory for it", true};
+  } catch (const Error& error) {
+    return {{}, error.what(), true};
+  }
+}
+
+// Prints answers as people or programs want them. Columns are as wide as the widest file and category.
+class AnswerPrinter {
+ public:
+  AnswerPrinter(const Model& model, const std::vector<fs::path>& files, const ClassifyArguments& arguments)
+      : model_(model), arguments_(arguments) {
+    constexpr std::size_t kWidestFile = 48;
+    for (const fs::path& file : files) {
+      file_width_ = std::max(file_width_, std::min(kWidestFile, text_width(printable(file.string()))));
+    }
+    for (const std::string& category : model.categories) {
+      category_width_ = std::max(category_width_, text_width(printable(category)));
+    }
+  }
+
+  void print(const fs::path& file, const Answer& answer) {
+    if (!answer.classification) {
+      print_error(file, answer.error);
+    } else if (arguments_.run.json) {
+      fmt::print("{}\n", classification_json(file.string(), *answer.classification, model_, arguments_.votes));
+    } else {
+      print_text(file, *answer.classification);
+    }
+  }
+
+ private:
+  void print_error(const fs::path& file, const std::string& error) {
+    if (arguments_.run.json) {
+      fmt::print("{}\n", error_json(file.string(), error));
+    } else {
+      std::fflush(stdout);  // keeps both streams in order where they meet
+      fmt::print(stderr, "spincat: {}\n", printable(error));
+    }
+  }
+
+  void print_text(const fs::path& file, const Classification& c) {
+    const StageSeconds& s = c.seconds;
+    if (!head_printed_) {  // not before there is a row: a run of errors alone needs none
+      print_row("file", "category", "confidence", "votes", "runner-up", "time");
+      head_printed_ = true;
+    }
+    print_row(cut_in_the_middle(printable(file.string()), file_width_), name(c.ballot.winner),
+              fmt::format("{:.2f}", c.confidence),
+              fmt::format("{}/{}", c.ballot.count[c.ballot.winner], model_.categories.size() - 1),
+              name(c.ballot.runner_up), human_seconds(s.read + s.prepare + s.spin + s.encode + s.judge));
+    if (arguments_.votes) {
+      fmt::print("{}", ballot_text(c.ballot, model_.categories));
+    }
+  }
+
+  void print_row(const std::string& file, const std::string& category, const std::string& confidence,
+                 const std::string& votes, const std::string& runner_up, const std::string& time) const {
+    fmt::print("{}  {}  {:>10}  {:>5}  {}  {:>8}\n", padded(file, file_width_), padded(category, category_width_ + 1),
+               confidence, votes, padded(runner_up, std::max<std::size_t>(category_width_, 9)), time);
+  }
+
+  std::string name(std::uint32_t category) const { return printable(model_.categories[category]); }
+
+  static std::string padded(const std::string& text, std::size_t width) {
+    return text + std::string(width > text_width(text) ? width - text_width(text) : 0, ' ');
+  }
+
+  const Model& model_;
+  const ClassifyArguments& arguments_;
+  std::size_t file_width_ = 4;
+  std::size_t category_width_ = 8;
+  bool head_printed_ = false;
+};
+
+// Classifies on all threads and prints in the order of the files, each as soon as those before it are printed.
+// Returns how many could not be classified.
+std::size_t classify_all(const Model& model, const std::vector<fs::path>& files, const ClassifyArguments& arguments) {
+  AnswerPrinter printer(model, files, arguments);
+  ProgressBar bar(arguments.run);
+  std::vector<Answer> answers(files.size());
+  std::mutex mutex;
+  std::size_t printed = 0;
+  std::size_t failed = 0;
+  for_each_index(files.size(), arguments.run.thread_count(), [&](std::size_t i) {
+    stop_if_interrupted();
+    Answer answer = answer_for(model, files[i]);
+    const std::lock_guard lock(mutex);
+    answers[i] = std::move(answer);
+    for (; printed < files.size() && answers[printed].done; ++printed) {
+      failed += answers[printed].classification ? 0 : 1;
+      bar.wipe();
+      printer.print(files[printed], answers[printed]);
+      answers[printed] = {};  // a hundred thousand ballots need not be kept
+    }
+    bar.update("naming objects", printed, files.size());
+  });
+  return failed;
+}
+
+int run_classify(const ClassifyArguments& arguments) {
+  const Model model = read_model(arguments.model);
+  const std::vector<fs::path> files = expand_folders(arguments.inputs);
+  const std::size_t failed = classify_all(model, files, arguments);
+  if (failed > 0 && files.size() > 1 && !arguments.run.quiet) {
+    std::fflush(stdout);
+    fmt::print(stderr, "spincat: {} of {} objects could not be named\n", failed, files.size());
+  }
+  return failed > 0 ? 2 : 0;
+}
+
+}  // namespace
+
+Command add_classify(CLI::App& parent) {
+  auto arguments = std::make_shared<ClassifyArguments>();
+  CLI::App* command = parent.add_subcommand("classify", "Name objects by a model");
+  command->footer(
+      "Example:\n"
+      "  spincat classify furniture.spincat chair.obj scans/*.ply\n"
+      "  spincat classify furniture.spincat incoming/ --json > names.jsonl");
+  command->add_option("model", arguments->model, "A model file written by spincat train")
+      ->type_name("MODEL")
+      ->required();
+  command->add_option("files", arguments->inputs, "Objects, or folders of objects")->type_name("FILE")->required();
+  command->add_flag("--votes", arguments->votes, "Show what every judge said");
+  arguments->run.add_to(*command);
+  return [arguments] { return run_classify(*arguments); };
+}
+
+}  // namespace spincat::app

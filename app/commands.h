@@ -1,0 +1,17 @@
+// The subcommands. Each one declares its options on its CLI::App and returns what is to be run when it was chosen; that
+// returns the exit code and throws spincat::Error.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace spincat::app {
+
+using Command = std::function<int()>;
+
+Command add_train(CLI::App& parent);
+Command add_classify(CLI::App& parent);
+Command add_evaluate(CLI::App& parent);
+Command add_info(CLI::App& parent);
+
+}  // namespace spincat::app

@@ -1,0 +1,95 @@
+// The spincat command. Results go to standard output, everything else to standard error.
+// Exit codes: 0 done, 1 could not do it, 2 wrong use or bad input, 128 + n ended by signal n.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "commands.h"
+#include "interrupt.h"
+#include "spincat/error.h"
+#include "spincat/report/text_table.h"
+
+namespace {
+
+using namespace spincat;       // NOLINT(google-build-using-namespace)
+using namespace spincat::app;  // NOLINT(google-build-using-namespace)
+
+int fail(const std::string& problem, int code) {
+  fmt::print(stderr, "spincat: {}\n", printable(problem));
+  return code;
+}
+
+// Wrong use in one line; --help and --version print and succeed.
+int report_parse_error(const CLI::App& cli, const CLI::ParseError& error) {
+  if (error.get_exit_code() == 0) {
+    return cli.exit(error);
+  }
+  return fail(std::string(error.what()) + " (spincat --help tells more)", 2);
+}
+
+// What was printed must have arrived: a full disk behind "> file" is an error.
+int flush_output(int code) {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    return fail(fmt::format("standard output: {}", std::strerror(errno)), 1);
+  }
+  return code;
+}
+
+int run(int argc, char** argv) {
+  CLI::App cli(
+      "spincat learns object categories from 3D models by spin images and pairwise judges, and names new ones.",
+      "spincat");
+  cli.footer(
+      "Example:\n"
+      "  spincat train models/ -o models.spincat       learn: models/ has a sub-folder per category\n"
+      "  spincat classify models.spincat new.obj       name an object\n"
+      "  spincat evaluate models/                      measure how often the names are right\n"
+      "spincat COMMAND --help tells more.");
+  cli.set_version_flag("--version", "spincat " SPINCAT_VERSION);
+  cli.require_subcommand(1);
+  const std::vector<std::pair<const char*, Command>> commands = {{"train", add_train(cli)},
+                                                                 {"classify", add_classify(cli)},
+                                                                 {"evaluate", add_evaluate(cli)},
+                                                                 {"info", add_info(cli)}};
+  const auto is_called = [&](const auto& command) { return std::string_view(argv[1]) == command.first; };
+  if (argc > 1 && argv[1][0] != '-' && std::ranges::none_of(commands, is_called)) {
+    throw InputError(fmt::format("there is no command '{}' (spincat --help lists them)", argv[1]));
+  }
+  try {
+    cli.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return flush_output(report_parse_error(cli, error));
+  }
+  for (const auto& [name, command] : commands) {
+    if (cli.got_subcommand(name)) {
+      return flush_output(command());
+    }
+  }
+  return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  catch_interrupts();
+  try {
+    return run(argc, argv);
+  } catch (const InputError& error) {
+    return fail(error.what(), 2);
+  } catch (const Interrupted& interrupted) {
+    return fail("interrupted", 128 + interrupted.signal);
+  } catch (const std::bad_alloc&) {
+    return fail("not enough memory", 1);
+  } catch (const std::exception& error) {  // RunError, and whatever a library throws
+    return fail(error.what(), 1);
+  }
+}

@@ -1,0 +1,142 @@
+#include "options.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <cstdio>
+#include <string_view>
+
+#include "spincat/encode/encoding.h"
+#include "spincat/error.h"
+#include "spincat/parallel/for_each.h"
+#include "spincat/pipeline/setting_names.h"
+#include "spincat/report/text_table.h"
+
+namespace spincat::app {
+namespace {
+
+struct BinSize {
+  double value;
+  std::optional<BinSizeUnit> unit;
+};
+
+BinSize parse_bin_size(std::string_view text) {
+  BinSize size{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), size.value);
+  const std::string_view unit = text.substr(static_cast<std::size_t>(end - text.data()));
+  if (unit == "abs") {
+    size.unit = BinSizeUnit::absolute;
+  } else if (unit == "res") {
+    size.unit = BinSizeUnit::resolution;
+  } else if (unit == "rel") {
+    size.unit = BinSizeUnit::relative;
+  }
+  if (error != std::errc{} || (!unit.empty() && !size.unit)) {
+    throw InputError(
+        fmt::format("--bin-size {}: expected a number, maybe followed by abs, res or rel, as in 0.05rel", text));
+  }
+  return size;
+}
+
+template <class T>
+void override(T& setting, const std::optional<T>& wanted) {
+  if (wanted) {
+    setting = *wanted;
+  }
+}
+
+}  // namespace
+
+void RunOptions::add_to(CLI::App& command) {
+  command.add_option("--threads", threads, "Threads to use; 0 means one for each processor")
+      ->check(CLI::Range(0, 4096))
+      ->capture_default_str();
+  command.add_flag("--json", json, "Print JSON for programs instead of a table");
+  command.add_flag("--quiet", quiet, "No progress and no notes on standard error, only errors");
+}
+
+int RunOptions::thread_count() const {
+  return spincat::thread_count(threads);
+}
+
+void DatasetArguments::add_to(CLI::App& command) {
+  command
+      .add_option("dataset", sources,
+                  "A folder with one sub-folder per category, a CSV file with the columns path,category, or Princeton "
+                  ".cla files; several are merged")
+      ->type_name("DATASET")
+      ->required();
+  command.add_option("--models", options.models, "Where the models are that a CSV or .cla file names")
+      ->type_name("FOLDER");
+  command
+      .add_option("--map", options.category_map,
+                  "A CSV file with the columns class,category: keep these classes, under these names")
+      ->type_name("FILE");
+  command.add_flag("--strict", strict, "An object that cannot be read is an error, not left out");
+}
+
+void SettingsArguments::add_to(CLI::App& command) {
+  const std::string group = "Settings";
+  const auto add = [&](const char* name, auto& variable, const std::string& help, const char* type) {
+    command.add_option(name, variable, help)->group(group)->type_name(type);
+  };
+  command.add_option("--preset", preset, fmt::format("One of {}", fmt::join(preset_names(), ", ")))
+      ->group(group)
+      ->type_name("NAME")
+      ->capture_default_str();
+  add("--seed", seed, "Of every random choice (default 1)", "N");
+  add("--surface", surface, "Points that stand for a mesh: vertices, samples or external", "KIND");
+  add("--points", points, "Surface points of an object", "N");
+  add("--spin-points", spin_points, "Spin points (and images) of an object", "N");
+  add("--image-width", image_width, "Rows and columns of a spin image, 1 to 256", "N");
+  add("--bin-size", bin_size,
+      "Size of a bin: a number followed by rel (object radii), res (mesh resolutions) or abs (the file's unit); "
+      "without one, the preset's unit",
+      "SIZE");
+  add("--support-angle", support_angle, "Largest angle between normals, 0 to 180 degrees", "DEGREES");
+  add("--encoding", encoding, fmt::format("One of {}", fmt::join(encoding_names(), ", ")), "NAME");
+  add("--c", c, "C of the judges' SVMs", "C");
+  add("--copies", copies, "Stretched copies of each training object", "N");
+}
+
+Settings SettingsArguments::settings() const {
+  Settings s = spincat::preset(preset);
+  override(s.seed, seed);
+  override(s.prepare.points, points);
+  override(s.prepare.spin_points, spin_points);
+  override(s.spin.image_width, image_width);
+  override(s.encoding, encoding);
+  override(s.judge.c, c);
+  override(s.copies, copies);
+  if (surface) {
+    s.prepare.surface = choice_of<SurfaceKind>("--surface", *surface);
+  }
+  if (support_angle) {  // asking for an angle means the hard support angle
+    s.spin.support_angle = *support_angle;
+    s.spin.angle_test = AngleTest::cutoff;
+  }
+  if (bin_size) {
+    const BinSize size = parse_bin_size(*bin_size);
+    s.spin.bin_size = size.value;
+    override(s.bin_size_unit, size.unit);
+  }
+  s.validate();
+  return s;
+}
+
+void report_skipped(const std::vector<SkippedObject>& skipped, const RunOptions& run) {
+  constexpr std::size_t kMostLines = 20;
+  if (run.quiet) {
+    return;
+  }
+  for (std::size_t i = 0; i < skipped.size() && i < kMostLines; ++i) {
+    fmt::print(stderr, "spincat: {}: {} (skipped)\n", printable(skipped[i].file.string()),
+               printable(skipped[i].reason));
+  }
+  if (skipped.size() > kMostLines) {
+    fmt::print(stderr, "spincat: {} more were skipped (--json lists them all)\n", skipped.size() - kMostLines);
+  }
+}
+
+}  // namespace spincat::app

@@ -1,0 +1,58 @@
+// Options that several subcommands share.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "spincat/dataset/dataset.h"
+#include "spincat/pipeline/settings.h"
+
+namespace spincat::app {
+
+// How to run and how to answer: nothing here changes a result.
+struct RunOptions {
+  int threads = 0;
+  bool json = false;
+  bool quiet = false;
+
+  void add_to(CLI::App& command);
+  int thread_count() const;
+};
+
+// What to learn from.
+struct DatasetArguments {
+  std::vector<std::filesystem::path> sources;
+  DatasetOptions options;
+  bool strict = false;
+
+  void add_to(CLI::App& command);
+  Dataset read() const { return read_dataset(sources, options); }
+};
+
+// A preset and what the user wants different from it.
+struct SettingsArguments {
+  std::string preset = "default";
+  std::optional<std::uint64_t> seed;
+  std::optional<int> points;
+  std::optional<int> spin_points;
+  std::optional<int> image_width;
+  std::optional<std::string> bin_size;  // "0.1", "2res", "0.05rel", "3.5abs"
+  std::optional<double> support_angle;
+  std::optional<std::string> surface;
+  std::optional<std::string> encoding;
+  std::optional<double> c;
+  std::optional<int> copies;
+
+  void add_to(CLI::App& command);
+  // Throws InputError naming what is out of range.
+  Settings settings() const;
+};
+
+// Tells on standard error which objects were left out and why, in a few lines however many there are.
+void report_skipped(const std::vector<SkippedObject>& skipped, const RunOptions& run);
+
+}  // namespace spincat::app

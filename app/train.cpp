@@ -1,0 +1,79 @@
+#include "spincat/pipeline/train.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "commands.h"
+#include "options.h"
+#include "progress_bar.h"
+#include "spincat/io/file.h"
+#include "spincat/pipeline/stopwatch.h"
+#include "spincat/report/json.h"
+#include "spincat/report/text.h"
+
+namespace spincat::app {
+namespace {
+
+struct TrainArguments {
+  DatasetArguments dataset;
+  SettingsArguments settings;
+  RunOptions run;
+  std::filesystem::path output;
+  bool all = false;
+};
+
+// Without its official test split, unless the user wants that, too.
+Dataset dataset_to_learn_from(const TrainArguments& arguments) {
+  Dataset whole = arguments.dataset.read();
+  if (arguments.all) {
+    return whole;
+  }
+  Dataset part = training_part(whole);
+  const std::size_t held_back = whole.objects.size() - part.objects.size();
+  if (held_back > 0 && !arguments.run.quiet) {
+    fmt::print(stderr, "spincat: {} objects of the data set's test split are held back (--all learns from them, too)\n",
+               held_back);
+  }
+  return part;
+}
+
+int run_train(const TrainArguments& arguments) {
+  const Settings settings = arguments.settings.settings();
+  check_writable(arguments.output);  // before the work, not after it
+  const Dataset dataset = dataset_to_learn_from(arguments);
+  Stopwatch watch;
+  TrainResult result;
+  {
+    ProgressBar bar(arguments.run);
+    result = train(dataset, settings, {arguments.dataset.strict, arguments.run.thread_count()}, bar.callback());
+  }
+  write_model(arguments.output, result.model);
+  report_skipped(result.skipped, arguments.run);
+  if (arguments.run.json) {
+    fmt::print("{}\n", training_json(arguments.output.string(), result));
+  } else {
+    fmt::print("{}wrote {} in {}\n", model_text(result.model), arguments.output.string(), human_seconds(watch.lap()));
+  }
+  return 0;
+}
+
+}  // namespace
+
+Command add_train(CLI::App& parent) {
+  auto arguments = std::make_shared<TrainArguments>();
+  CLI::App* command = parent.add_subcommand("train", "Learn from a data set and write a model");
+  command->footer(
+      "Example:\n"
+      "  spincat train furniture/ -o furniture.spincat\n"
+      "  spincat train labels.csv --models scans/ -o scans.spincat --seed 7");
+  arguments->dataset.add_to(*command);
+  command->add_option("-o,--output", arguments->output, "The model file to write")->type_name("FILE")->required();
+  command->add_flag("--all", arguments->all, "Learn from the objects of an official test split, too");
+  arguments->settings.add_to(*command);
+  arguments->run.add_to(*command);
+  return [arguments] { return run_train(*arguments); };
+}
+
+}  // namespace spincat::app

@@ -1,0 +1,23 @@
+# The Debian 12 packages that spincat needs, by what they are needed for. Sourced by scripts/setup.
+# docs/dependencies.md says why each library was chosen.
+
+packages_build=(
+  g++ cmake ninja-build
+  libeigen3-dev        # linear algebra, Gram matrices
+  libnanoflann-dev     # nearest neighbours
+  libsvm-dev           # the solver of the judges' SVMs
+  libtinygltf-dev      # glTF and GLB files
+  nlohmann-json3-dev   # model files, JSON
+  libcli11-dev         # command line
+  libfmt-dev           # formatting
+  zlib1g-dev           # checksums
+)
+
+packages_demo=(
+  sweethome3d-furniture  # 820 furniture models, CC0 and CC-BY 3.0
+  unzip
+)
+
+packages_test=(
+  libgtest-dev
+)

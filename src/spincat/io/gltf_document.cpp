@@ -1,0 +1,275 @@
+#include "spincat/io/gltf_document.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <iterator>
+#include <limits>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "spincat/error.h"
+#include "spincat/io/binary.h"
+#include "spincat/io/file.h"
+#include "spincat/io/text_cursor.h"
+
+namespace spincat::io {
+namespace {
+
+using nlohmann::json;
+
+// A file's two parts: what describes the scene, and in a .glb file the bytes of its first buffer.
+struct Container {
+  std::string_view text;
+  std::optional<std::string_view> binary;
+};
+
+Container open_container(std::string_view bytes) {
+  constexpr std::uint32_t json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;  // "JSON", "BIN\0"
+  if (!bytes.starts_with("glTF")) return {bytes, std::nullopt};
+  constexpr std::size_t header_size = 12, chunk_header_size = 8;
+  if (bytes.size() < header_size) throw InputError("is cut off within its header");
+  if (const auto version = load<std::uint32_t>(bytes.data() + 4); version != 2)
+    throw InputError(fmt::format("is a GLB file of version {}; spincat reads version 2", version));
+  const std::size_t length = load<std::uint32_t>(bytes.data() + 8);
+  if (length > bytes.size()) throw InputError(fmt::format("is cut off: {} of {} bytes", bytes.size(), length));
+  bytes.remove_prefix(header_size);
+
+  Container container;
+  while (bytes.size() >= chunk_header_size) {
+    const std::size_t size = load<std::uint32_t>(bytes.data());
+    const auto type = load<std::uint32_t>(bytes.data() + 4);
+    bytes.remove_prefix(chunk_header_size);
+    if (size > bytes.size()) throw InputError("is cut off within a chunk");
+    if (type == json_chunk && container.text.empty()) container.text = bytes.substr(0, size);
+    if (type == binary_chunk && !container.binary) container.binary = bytes.substr(0, size);
+    bytes.remove_prefix(size);
+  }
+  // Some programs fill the chunk up with zeros where blanks are due.
+  while (container.text.ends_with('\0')) container.text.remove_suffix(1);
+  return container;
+}
+
+[[noreturn]] void fail_as_bloated() {
+  throw InputError("describes far more nodes, meshes or accessors than a file of its size has any use for");
+}
+
+// Looks over the brackets before anything is built from them. tinygltf goes down nested values by recursion: 100,000
+// brackets must not exhaust the stack; and each "{}" of a few bytes becomes a hundred in memory.
+void check_brackets(std::string_view text) {
+  constexpr int deepest = 64;
+  const std::size_t most = 160'000 + text.size() / 5;
+  int depth = 0;
+  std::size_t brackets = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (in_string) {
+      if (text[i] == '"') in_string = false;
+      if (text[i] == '\\') ++i;
+    } else if (text[i] == '"') {
+      in_string = true;
+    } else if (text[i] == '[' || text[i] == '{') {
+      if (++depth > deepest) throw InputError(fmt::format("its JSON is nested more than {} levels deep", deepest));
+      if (++brackets > most) fail_as_bloated();
+    } else if (text[i] == ']' || text[i] == '}') {
+      --depth;
+    }
+  }
+}
+
+// What has no part in the shape of an object at rest.
+bool is_no_shape(const std::string& key) {
+  static constexpr std::array<std::string_view, 15> keys{
+      "animations", "cameras", "extensions", "extensionsUsed", "extras",  "images",   "materials", "max",
+      "min",        "name",    "samplers",   "skins",          "targets", "textures", "weights"};
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+// Recursion is safe here: check_brackets has bounded the depth.
+void leave_out_what_is_no_shape(json& value) {
+  if (value.is_object()) {
+    for (auto member = value.begin(); member != value.end();)
+      member = is_no_shape(member.key()) ? value.erase(member) : std::next(member);
+  }
+  if (value.is_structured())
+    for (json& part : value) leave_out_what_is_no_shape(part);
+}
+
+json parse(std::string_view text) {
+  check_brackets(text);
+  try {
+    json document = json::parse(text);
+    if (!document.is_object()) throw InputError("is no glTF file: its JSON is not an object");
+    leave_out_what_is_no_shape(document);
+    return document;
+  } catch (const json::parse_error& error) {
+    throw InputError(fmt::format("is no valid JSON at byte {}", error.byte));
+  } catch (const json::exception&) {
+    throw InputError("holds JSON that cannot be read");  // a number beyond all bounds
+  }
+}
+
+// Extensions that a file declares indispensable but that say nothing about where its surfaces are.
+bool is_harmless_extension(const std::string& name) {
+  for (const std::string_view prefix : {"KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_",
+                                        "KHR_lights_punctual", "KHR_mesh_quantization", "KHR_xmp"})
+    if (name.starts_with(prefix)) return true;
+  return false;
+}
+
+void check_extensions(const json& document) {
+  const auto required = document.find("extensionsRequired");
+  if (required == document.end() || !required->is_array()) return;
+  for (const json& name : *required)
+    if (name.is_string() && !is_harmless_extension(name.get<std::string>()))
+      throw InputError(
+          fmt::format("needs the glTF extension {}, which spincat does not read", in_quotes(name.get<std::string>())));
+}
+
+std::size_t array_size(const json& object, const char* key) {
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  return found != object.end() && found->is_array() ? found->size() : 0;
+}
+
+// tinygltf takes hundreds of bytes for each "{}": no file has a use for millions of those in so few bytes.
+void check_size(const json& document, std::size_t file_size) {
+  constexpr std::size_t free_of_charge = 16'000'000, most_growth = 20;
+  std::size_t primitives = 0;
+  for (std::size_t i = 0; i < array_size(document, "meshes"); ++i)
+    primitives += array_size(document["meshes"][i], "primitives");
+  const std::size_t needed =
+      array_size(document, "nodes") * sizeof(tinygltf::Node) + array_size(document, "meshes") * sizeof(tinygltf::Mesh) +
+      primitives * sizeof(tinygltf::Primitive) + array_size(document, "accessors") * sizeof(tinygltf::Accessor) +
+      array_size(document, "bufferViews") * sizeof(tinygltf::BufferView) +
+      array_size(document, "buffers") * sizeof(tinygltf::Buffer) +
+      array_size(document, "scenes") * sizeof(tinygltf::Scene);
+  if (needed > free_of_charge + most_growth * file_size) fail_as_bloated();
+}
+
+// %20 and the like in a URI.
+std::string decode_percent(std::string_view uri) {
+  std::string text;
+  while (!uri.empty()) {
+    const std::string_view digits = uri.substr(1, 2);
+    unsigned value = 0;
+    const auto end = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16).ptr;
+    const bool coded = uri[0] == '%' && digits.size() == 2 && end == digits.data() + 2;
+    text += coded ? static_cast<char>(value) : uri[0];
+    uri.remove_prefix(coded ? 3 : 1);
+  }
+  return text;
+}
+
+std::string read_beside(const std::filesystem::path& folder, const std::string& uri) {
+  const std::filesystem::path relative = std::filesystem::path(decode_percent(uri)).lexically_normal();
+  const bool outside = relative.is_absolute() || relative.empty() || *relative.begin() == "..";
+  if (outside || relative.native().find('\0') != std::string::npos)
+    throw InputError(fmt::format("its buffer {} does not lie in the file's own folder", in_quotes(uri)));
+  const std::filesystem::path file = folder / relative;
+  std::error_code error;
+  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
+    throw InputError(fmt::format("its buffer {} is no regular file", in_quotes(uri)));
+  try {
+    return read_file(file);
+  } catch (const InputError& missing) {
+    throw InputError(fmt::format("its buffer {}: {}", in_quotes(uri), missing.problem()));
+  }
+}
+
+// Finds the bytes of every buffer and leaves its number where its URI was, by which tinygltf asks for it below. Buffers
+// written into the file itself (data:) stay.
+std::vector<std::string> collect_buffers(json& document, const Container& container,
+                                         const std::filesystem::path& folder) {
+  std::vector<std::string> buffers(array_size(document, "buffers"));
+  for (std::size_t i = 0; i < buffers.size(); ++i) {
+    json& buffer = document["buffers"][i];
+    if (!buffer.is_object() || !buffer.contains("byteLength") || !buffer["byteLength"].is_number_unsigned())
+      throw InputError(fmt::format("its buffer {} has no byteLength", i));
+    const auto length = buffer["byteLength"].get<std::uint64_t>();
+    const bool has_uri = buffer.contains("uri") && buffer["uri"].is_string();
+    if (has_uri && tinygltf::IsDataURI(buffer["uri"].get_ref<const std::string&>())) continue;
+    if (has_uri) {
+      buffers[i] = read_beside(folder, buffer["uri"].get_ref<const std::string&>());
+    } else if (i == 0 && container.binary) {
+      buffers[i] = *container.binary;
+    }
+    if (buffers[i].size() < length)
+      throw InputError(fmt::format("its buffer {} is cut off: {} of {} bytes", i, buffers[i].size(), length));
+    buffers[i].resize(length);
+    buffer["uri"] = std::to_string(i);
+  }
+  return buffers;
+}
+
+// The only "files" that tinygltf ever gets to see.
+tinygltf::FsCallbacks callbacks_for(std::vector<std::string>& buffers) {
+  tinygltf::FsCallbacks callbacks = {};
+  callbacks.FileExists = [](const std::string&, void*) { return true; };
+  callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
+  callbacks.ReadWholeFile = [](std::vector<unsigned char>* out, std::string*, const std::string& path, void* data) {
+    auto& all = *static_cast<std::vector<std::string>*>(data);
+    std::size_t number = all.size();
+    std::from_chars(path.data(), path.data() + path.size(), number);
+    if (number >= all.size()) return false;
+    out->assign(all[number].begin(), all[number].end());
+    std::string().swap(all[number]);
+    return true;
+  };
+  callbacks.user_data = &buffers;
+  return callbacks;
+}
+
+// tinygltf's complaints come in several lines, and with bytes of the file in them.
+std::string one_line(const std::string& complaint) {
+  constexpr std::size_t longest = 200;
+  std::string line = complaint.substr(0, std::min(complaint.find('\n'), longest));
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return line.empty() ? "is no valid glTF file" : "is no valid glTF file: " + line;
+}
+
+}  // namespace
+
+tinygltf::Model read_gltf_document(std::string_view bytes, const std::filesystem::path& folder) {
+  const Container container = open_container(bytes);
+  json document = parse(container.text);
+  check_extensions(document);
+  std::vector<std::string> buffers = collect_buffers(document, container, folder);
+  std::size_t size = bytes.size();
+  for (const std::string& buffer : buffers) size += buffer.size();
+  check_size(document, size);
+  const std::string text = document.dump();
+  document = json();  // tinygltf makes its own: not both at once
+  if (text.size() > std::numeric_limits<std::uint32_t>::max()) throw InputError("holds more than 4 GB of JSON");
+
+  tinygltf::TinyGLTF reader;
+  reader.SetFsCallbacks(callbacks_for(buffers));
+  reader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
+                           void*) { return true; },
+                        nullptr);
+  tinygltf::Model model;
+  std::string error, warning;
+  bool read = false;
+  try {
+    read = reader.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()), "");
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& exception) {
+    error = exception.what();
+  }
+  if (!read) throw InputError(one_line(error));
+  return model;
+}
+
+}  // namespace spincat::io

@@ -1,0 +1,307 @@
+// Point Cloud Data, the format of the Point Cloud Library: a header of text, then points as text, as bytes or as
+// compressed bytes.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "spincat/error.h"
+#include "spincat/geometry/object.h"
+#include "spincat/io/binary.h"
+#include "spincat/io/formats.h"
+#include "spincat/io/object_builder.h"
+#include "spincat/io/read_object.h"
+#include "spincat/io/text_cursor.h"
+
+namespace spincat::io {
+namespace {
+
+struct Field {
+  std::string name;
+  std::uint64_t size = 4;   // bytes of one value
+  char type = 'F';          // F, I or U
+  std::uint64_t count = 1;  // values of this field in a point
+};
+
+struct Header {
+  std::vector<Field> fields;
+  std::uint64_t points = 0;
+  std::optional<Vec3> sensor;
+  std::string encoding;  // what follows DATA
+
+  std::uint64_t values_per_point() const {
+    std::uint64_t sum = 0;
+    for (const Field& field : fields) sum += field.count;
+    return sum;
+  }
+  std::uint64_t point_size() const {
+    std::uint64_t sum = 0;
+    for (const Field& field : fields) sum += field.count * field.size;
+    return sum;
+  }
+};
+
+class HeaderReader {
+ public:
+  explicit HeaderReader(TextCursor& text) : text_(text) {}
+
+  // Leaves the cursor behind the line DATA.
+  Header read() {
+    for (; text_.word_follows(); text_.skip_line()) {
+      const std::string_view keyword = text_.word();
+      if (keyword == "DATA") return finish();
+      read_line(keyword);
+    }
+    text_.fail("the file ends within the header, before 'DATA'");
+  }
+
+ private:
+  void read_line(std::string_view keyword) {
+    if (keyword == "FIELDS" || keyword == "COLUMNS") {
+      while (text_.word_on_line()) header_.fields.emplace_back().name = text_.word();
+    } else if (keyword == "SIZE") {
+      for (Field& field : header_.fields) field.size = read_size();
+    } else if (keyword == "TYPE") {
+      for (Field& field : header_.fields) field.type = read_type();
+    } else if (keyword == "COUNT") {
+      for (Field& field : header_.fields) field.count = read_count();
+    } else if (keyword == "WIDTH") {
+      width_ = text_.count("the width");
+    } else if (keyword == "HEIGHT") {
+      height_ = text_.count("the height");
+    } else if (keyword == "POINTS") {
+      points_ = text_.count("the number of points");
+    } else if (keyword == "VIEWPOINT") {
+      header_.sensor = read_viewpoint();
+    } else if (keyword != "VERSION") {
+      text_.fail("unknown word " + in_quotes(keyword) + " in the header");
+    }
+  }
+
+  std::uint64_t read_size() {
+    const std::uint64_t size = text_.count("the size of a field");
+    if (size != 1 && size != 2 && size != 4 && size != 8)
+      text_.fail(fmt::format("a field's size must be 1, 2, 4 or 8, found {}", size));
+    return size;
+  }
+
+  char read_type() {
+    const std::string_view type = text_.word();
+    if (type != "F" && type != "I" && type != "U")
+      text_.fail("a field's type must be F, I or U, found " + in_quotes(type));
+    return type[0];
+  }
+
+  std::uint64_t read_count() {
+    constexpr std::uint64_t most = 0xFFFF'FFFF;
+    const std::uint64_t count = text_.count("the count of a field");
+    if (count == 0 || count > most) text_.fail(fmt::format("a field's count must be at least 1, found {}", count));
+    return count;
+  }
+
+  // The place of the sensor: a translation and a rotation (w x y z), of which normals need only the first.
+  std::optional<Vec3> read_viewpoint() {
+    std::array<double, 7> pose{};
+    for (double& number : pose) number = text_.finite_number("a number of the viewpoint");
+    constexpr std::array<double, 7> unknown{0, 0, 0, 1, 0, 0, 0};  // what programs write when they do not know
+    if (pose == unknown) return std::nullopt;
+    return Vec3(pose[0], pose[1], pose[2]);
+  }
+
+  Header finish() {
+    header_.encoding = text_.word();
+    if (header_.fields.empty()) text_.fail("the header has no line 'FIELDS'");
+    if (!points_ && !width_) text_.fail("the header says neither 'POINTS' nor 'WIDTH'");
+    if (width_) {
+      if (*width_ > longest_side || height_.value_or(1) > longest_side) text_.fail("WIDTH x HEIGHT is too large");
+      const std::uint64_t area = *width_ * height_.value_or(1);
+      if (points_ && area != *points_)
+        text_.fail(fmt::format("WIDTH {} x HEIGHT {} is not POINTS {}", *width_, height_.value_or(1), *points_));
+      points_ = area;
+    }
+    header_.points = *points_;
+    text_.skip_line();
+    return header_;
+  }
+
+  static constexpr std::uint64_t longest_side = 0xFFFF'FFFF;  // whose square is still a number
+
+  TextCursor& text_;
+  Header header_;
+  std::optional<std::uint64_t> width_, height_, points_;
+};
+
+ScalarType scalar_type(const Field& field) {
+  if (field.type == 'F') {
+    if (field.size == 4) return ScalarType::float32;
+    if (field.size == 8) return ScalarType::float64;
+    throw InputError(fmt::format("field '{}': no floating-point number has {} bytes", field.name, field.size));
+  }
+  const bool is_signed = field.type == 'I';
+  switch (field.size) {
+    case 1:
+      return is_signed ? ScalarType::int8 : ScalarType::uint8;
+    case 2:
+      return is_signed ? ScalarType::int16 : ScalarType::uint16;
+    case 4:
+      return is_signed ? ScalarType::int32 : ScalarType::uint32;
+    default:
+      return is_signed ? ScalarType::int64 : ScalarType::uint64;
+  }
+}
+
+// x, y, z and the normal, as indices of fields; the normal may be missing.
+struct WantedFields {
+  std::array<std::size_t, 6> index{};
+  std::size_t number = 3;  // 3 or 6
+};
+
+WantedFields find_fields(const Header& header) {
+  static constexpr std::array<std::string_view, 6> names{"x", "y", "z", "normal_x", "normal_y", "normal_z"};
+  WantedFields wanted;
+  std::size_t found = 0;
+  for (; found < names.size(); ++found) {
+    const auto field = std::find_if(header.fields.begin(), header.fields.end(),
+                                    [&](const Field& f) { return f.name == names[found]; });
+    if (field == header.fields.end()) break;
+    wanted.index[found] = static_cast<std::size_t>(field - header.fields.begin());
+  }
+  if (found < 3) throw InputError(fmt::format("its points have no field '{}'", names[found]));
+  wanted.number = found == names.size() ? 6 : 3;
+  return wanted;
+}
+
+void add_point(const std::array<double, 6>& values, std::size_t number, ObjectBuilder& object) {
+  const Vec3 point(values[0], values[1], values[2]);
+  if (number == 6) {
+    object.add_point(point, Vec3(values[3], values[4], values[5]));
+  } else {
+    object.add_point(point);
+  }
+}
+
+[[noreturn]] void fail_cut_off(const Header& header) {
+  throw InputError(fmt::format("announces {} points, more than fit into the rest of the file", header.points));
+}
+
+void read_text(const Header& header, TextCursor& text, ObjectBuilder& object) {
+  const WantedFields wanted = find_fields(header);
+  if (header.points > (text.bytes_left() + 1) / (2 * header.values_per_point())) fail_cut_off(header);
+  object.expect_vertices(header.points);
+  for (std::uint64_t i = 0; i < header.points; ++i, text.skip_line()) {
+    if (!text.word_follows()) text.fail(fmt::format("the file ends after {} of {} points", i, header.points));
+    std::array<double, 6> values{};
+    for (std::size_t f = 0; f < header.fields.size(); ++f) {
+      const auto* last = wanted.index.begin() + wanted.number;
+      const auto* place = std::find(wanted.index.begin(), last, f);
+      for (std::uint64_t k = 0; k < header.fields[f].count; ++k) {
+        const double value = text.number("a number");
+        if (k == 0 && place != last) values[static_cast<std::size_t>(place - wanted.index.begin())] = value;
+      }
+    }
+    add_point(values, wanted.number, object);
+  }
+}
+
+// Where the values of a field lie: those of point i begin at offset + i * stride.
+struct Column {
+  ScalarType type;
+  std::size_t offset;
+  std::size_t stride;
+};
+
+// `bytes` holds header.points * header.point_size() bytes: point after point, or `by_field`, field after field.
+void read_values(const Header& header, std::string_view bytes, bool by_field, ObjectBuilder& object) {
+  const WantedFields wanted = find_fields(header);
+  std::array<Column, 6> columns{};
+  for (std::size_t w = 0; w < wanted.number; ++w) {
+    const Field& field = header.fields[wanted.index[w]];
+    std::size_t offset = 0;
+    for (std::size_t f = 0; f < wanted.index[w]; ++f) offset += header.fields[f].size * header.fields[f].count;
+    columns[w] = by_field ? Column{scalar_type(field), offset * header.points, field.size * field.count}
+                          : Column{scalar_type(field), offset, header.point_size()};
+  }
+  object.expect_vertices(header.points);
+  for (std::uint64_t i = 0; i < header.points; ++i) {
+    std::array<double, 6> values{};
+    for (std::size_t w = 0; w < wanted.number; ++w)
+      values[w] = load_scalar(bytes.data() + columns[w].offset + i * columns[w].stride, columns[w].type);
+    add_point(values, wanted.number, object);
+  }
+}
+
+// Unpacks LZF: runs of literal bytes, and copies of up to 264 bytes from at most 8 kB back.
+std::string unpack_lzf(std::string_view packed, std::size_t size) {
+  std::string out;
+  out.reserve(size);
+  std::size_t at = 0;
+  const auto fail = [] { throw InputError("its compressed points are damaged"); };
+  const auto next = [&]() -> std::size_t {
+    if (at == packed.size()) fail();
+    return static_cast<unsigned char>(packed[at++]);
+  };
+  while (at < packed.size()) {
+    const std::size_t control = next();
+    if (control < 32) {
+      const std::size_t run = control + 1;
+      if (run > packed.size() - at || run > size - out.size()) fail();
+      out.append(packed.substr(at, run));
+      at += run;
+    } else {
+      std::size_t length = control >> 5;
+      if (length == 7) length += next();
+      length += 2;
+      const std::size_t back = ((control & 31) << 8) + next() + 1;
+      if (back > out.size() || length > size - out.size()) fail();
+      // Byte by byte: the copy may run into what it has just written.
+      for (std::size_t i = 0; i < length; ++i) out.push_back(out[out.size() - back]);
+    }
+  }
+  if (out.size() != size) fail();
+  return out;
+}
+
+void read_compressed(const Header& header, std::string_view bytes, ObjectBuilder& object) {
+  if (bytes.size() < 8) fail_cut_off(header);
+  const std::size_t packed_size = load<std::uint32_t>(bytes.data());
+  const std::size_t size = load<std::uint32_t>(bytes.data() + 4);
+  bytes.remove_prefix(8);
+  if (packed_size > bytes.size()) fail_cut_off(header);
+  if (header.points > size / header.point_size() || header.points * header.point_size() != size)
+    throw InputError(fmt::format("its {} points of {} bytes do not make up the {} bytes that are compressed",
+                                 header.points, header.point_size(), size));
+  constexpr std::size_t best_ratio = 88;  // 264 bytes out of 3
+  if (size / best_ratio > packed_size) throw InputError("its compressed points are damaged");
+  read_values(header, unpack_lzf(bytes.substr(0, packed_size), size), true, object);
+}
+
+}  // namespace
+
+Object read_pcd(std::string_view bytes, const ReadLimits& limits) {
+  TextCursor text(bytes);
+  const Header header = HeaderReader(text).read();
+  ObjectBuilder object(limits);
+  object.check_vertices(header.points);
+  if (header.sensor) object.set_sensor(*header.sensor);
+  const std::string_view body = bytes.substr(bytes.size() - text.bytes_left());
+  if (header.encoding == "ascii") {
+    read_text(header, text, object);
+  } else if (header.encoding == "binary") {
+    if (header.points > body.size() / header.point_size()) fail_cut_off(header);
+    read_values(header, body, false, object);
+  } else if (header.encoding == "binary_compressed") {
+    read_compressed(header, body, object);
+  } else {
+    throw InputError("unknown data format " + in_quotes(header.encoding) +
+                     "; expected ascii, binary or binary_compressed");
+  }
+  return object.finish();
+}
+
+}  // namespace spincat::io

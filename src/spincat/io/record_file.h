@@ -1,0 +1,31 @@
+// Private to the library, not installed (it names nlohmann's types): the safe container of every file that spincat
+// writes for itself, the model first of all.
+//
+//   bytes  what
+//   8      "SPINCAT" and 0x1A, which stops a `type` of the file on a terminal
+//   4 + k  length and text of the kind, as "model"
+//   4      version of the kind's format
+//   8      length of the content
+//   n      the content as CBOR; large arrays of numbers as binary blobs
+//   4      CRC-32 (zlib's) of everything before it
+//
+// Numbers are unsigned and little-endian.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace spincat {
+
+// The bytes of a record. `kind` is up to 32 lower-case letters; `content` may be nested 32 deep, and its binary blobs
+// have no subtypes.
+std::string pack_record(std::string_view kind, std::uint32_t version, const nlohmann::json& content);
+
+// The content of a record of this kind and of a version up to `newest_version`. The magic, kind, version, length and
+// checksum are checked in this order, so that the message names what is really the matter.
+// Throws InputError, without the file's name, for anything else; no bytes, however made, crash it.
+nlohmann::json unpack_record(std::string_view bytes, std::string_view kind, std::uint32_t newest_version);
+
+}  // namespace spincat

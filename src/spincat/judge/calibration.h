@@ -1,0 +1,31 @@
+// From how close a vote was to how likely its winner is right.
+#pragma once
+
+#include <span>
+
+#include "spincat/judge/ballot.h"
+
+namespace spincat {
+
+// confidence = 1 / (1 + exp(-(slope * weakest_margin + offset))), where weakest_margin is the winner's smallest margin
+// over all its judges (Platt scaling of the whole vote instead of a single SVM).
+struct Calibration {
+  double slope = 2.0;  // of an uncalibrated model: one half at margin 0, 0.88 at margin 1
+  double offset = 0.0;
+
+  // In (0, 1).
+  double confidence(const Ballot& ballot) const;
+};
+
+// A vote on an object whose category is known, by judges that were not taught on it.
+struct JudgedObject {
+  double weakest_margin = 0.0;
+  bool right = false;
+};
+
+// Fits slope and offset to such votes by maximum likelihood (Newton steps with Platt's softened targets, so that a
+// handful of votes or votes that are all right do not give certainty). Deterministic. The uncalibrated values when
+// there are fewer than ten votes.
+Calibration fit_calibration(std::span<const JudgedObject> votes);
+
+}  // namespace spincat

@@ -1,0 +1,49 @@
+#include "spincat/parallel/for_each.h"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+
+namespace spincat {
+
+int thread_count(int requested) {
+  if (requested > 0) {
+    return requested;
+  }
+  cpu_set_t allowed;
+  if (sched_getaffinity(0, sizeof(allowed), &allowed) != 0) {
+    return 1;
+  }
+  return std::max(1, CPU_COUNT(&allowed));
+}
+
+void for_each_index(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {
+  std::mutex mutex;
+  std::exception_ptr first_error;
+  std::size_t first_index = count;
+  std::atomic<bool> failed = false;
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+  for (std::size_t i = 0; i < count; ++i) {
+    if (failed) {
+      continue;
+    }
+    try {
+      body(i);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      failed = true;
+      if (i < first_index) {
+        first_index = i;
+        first_error = std::current_exception();
+      }
+    }
+  }
+  if (first_error) {
+    std::rethrow_exception(first_error);
+  }
+}
+
+}  // namespace spincat

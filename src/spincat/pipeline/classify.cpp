@@ -1,0 +1,38 @@
+#include "spincat/pipeline/classify.h"
+
+#include <fmt/format.h>
+
+#include "spincat/error.h"
+#include "spincat/io/read_object.h"
+#include "spincat/pipeline/stopwatch.h"
+
+namespace spincat {
+
+Classification classify(const Model& model, const Object& object) {
+  Classification result;
+  const FeatureVector features = describe(object, model.settings, 0, &result.seconds);
+  if (features.values.size() != model.feature_length()) {
+    throw InputError(
+        fmt::format("gives {} features where the model expects {}", features.values.size(), model.feature_length()));
+  }
+  Stopwatch watch;
+  result.ballot = model.judges.vote(features.values);
+  result.confidence = model.calibration.confidence(result.ballot);
+  result.seconds.judge = watch.lap();
+  return result;
+}
+
+Classification classify_file(const Model& model, const std::filesystem::path& file) {
+  Stopwatch watch;
+  const Object object = read_object(file);
+  const double read = watch.lap();
+  try {
+    Classification result = classify(model, object);
+    result.seconds.read = read;
+    return result;
+  } catch (const InputError& error) {
+    throw InputError(file.string(), error.problem());
+  }
+}
+
+}  // namespace spincat

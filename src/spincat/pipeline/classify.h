@@ -1,0 +1,26 @@
+// Naming: from an object and a model to a ballot.
+#pragma once
+
+#include <filesystem>
+
+#include "spincat/geometry/object.h"
+#include "spincat/judge/ballot.h"
+#include "spincat/pipeline/describe.h"
+#include "spincat/pipeline/model.h"
+
+namespace spincat {
+
+struct Classification {
+  Ballot ballot;            // categories as indices into Model::categories
+  double confidence = 0.0;  // in (0, 1): how likely the winner is right, by the model's calibration
+  StageSeconds seconds;
+};
+
+// Prepares, describes and judges an object exactly as training did. Deterministic. Throws InputError (without a file
+// name) when the object has no extent or does not fit the model.
+Classification classify(const Model& model, const Object& object);
+
+// The same for an object in a file; what is thrown names the file.
+Classification classify_file(const Model& model, const std::filesystem::path& file);
+
+}  // namespace spincat

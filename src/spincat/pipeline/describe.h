@@ -1,0 +1,28 @@
+// One object to its feature vector: prepare, spin, encode.
+#pragma once
+
+#include "spincat/encode/feature_vector.h"
+#include "spincat/geometry/object.h"
+#include "spincat/pipeline/settings.h"
+
+namespace spincat {
+
+// Seconds spent in each stage (the paper's Figure 3).
+struct StageSeconds {
+  double read = 0.0;
+  double prepare = 0.0;
+  double spin = 0.0;
+  double encode = 0.0;
+  double judge = 0.0;  // teaching or voting
+  StageSeconds& operator+=(const StageSeconds& other);
+};
+
+// The feature vector of an object, or of its stretched training copy number `copy`. Deterministic. Adds the time spent
+// to `seconds` where one is given. Throws InputError (without a file name) when the object has no extent.
+FeatureVector describe(const Object& object, const Settings& settings, int copy = 0, StageSeconds* seconds = nullptr);
+
+// The bin size in the unit of prepared points. Throws InputError when an object of resolution 0 is to be measured in
+// mesh resolutions.
+double prepared_bin_size(const PreparedObject& object, const Settings& settings);
+
+}  // namespace spincat

@@ -1,0 +1,144 @@
+#include "spincat/pipeline/feature_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "spincat/error.h"
+#include "spincat/io/read_object.h"
+#include "spincat/parallel/for_each.h"
+#include "spincat/pipeline/stopwatch.h"
+
+namespace spincat {
+namespace {
+
+// What became of one object of the data set.
+struct Described {
+  std::vector<FeatureVector> features;  // itself and its copies; empty when it could not be read
+  std::string problem;
+  StageSeconds seconds;
+};
+
+Described describe_object(const DatasetObject& entry, const Settings& settings, bool strict) {
+  Described result;
+  try {
+    Stopwatch watch;
+    const Object object = read_object(entry.file);
+    result.seconds.read = watch.lap();
+    for (int copy = 0; copy <= settings.copies; ++copy) {
+      result.features.push_back(describe(object, settings, copy, &result.seconds));
+    }
+  } catch (const InputError& error) {
+    if (strict) {
+      throw InputError(entry.file.string(), error.problem());
+    }
+    result.features.clear();
+    result.problem = error.problem();
+  }
+  return result;
+}
+
+// Throws when the objects that are left can teach nothing.
+void check_categories(const FeatureTable& table, const std::string& dataset) {
+  std::vector<bool> present(table.categories.size(), false);
+  for (const DatasetObject& object : table.objects) {
+    present[object.category] = true;
+  }
+  const auto left = std::ranges::count(present, true);
+  if (left < 2 || left < static_cast<std::ptrdiff_t>(present.size())) {
+    const auto missing = static_cast<std::size_t>(std::ranges::find(present, false) - present.begin());
+    throw InputError(dataset, fmt::format("no object of category '{}' could be read ({} could not; the first, {}: {})",
+                                          table.categories[missing], table.skipped.size(),
+                                          table.skipped.front().file.string(), table.skipped.front().reason));
+  }
+}
+
+// Moves all described objects into one table, in the order of the data set.
+FeatureTable collect(const Dataset& dataset, std::vector<Described> described, const Settings& settings) {
+  FeatureTable table;
+  table.categories = dataset.categories;
+  table.skipped = dataset.skipped;
+  table.rows_per_object = static_cast<std::uint32_t>(settings.copies + 1);
+  Eigen::Index length = 0;
+  for (std::size_t i = 0; i < described.size(); ++i) {
+    table.seconds += described[i].seconds;
+    if (described[i].features.empty()) {
+      table.skipped.push_back({dataset.objects[i].file, described[i].problem});
+    } else {
+      table.objects.push_back(dataset.objects[i]);
+      table.encoding = described[i].features[0].encoding;
+      length = static_cast<Eigen::Index>(described[i].features[0].values.size());
+    }
+  }
+  table.features.resize(static_cast<Eigen::Index>(table.objects.size() * table.rows_per_object), length);
+  Eigen::Index row = 0;
+  for (Described& object : described) {
+    for (const FeatureVector& features : object.features) {
+      std::ranges::copy(features.values, table.features.row(row++).data());
+    }
+    object.features = {};  // frees as it goes: both copies together would be twice the memory
+  }
+  std::ranges::stable_sort(table.skipped, {}, &SkippedObject::file);
+  return table;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> FeatureTable::object_labels() const {
+  std::vector<std::uint32_t> labels;
+  labels.reserve(objects.size());
+  for (const DatasetObject& object : objects) {
+    labels.push_back(object.category);
+  }
+  return labels;
+}
+
+std::vector<std::uint32_t> FeatureTable::row_labels() const {
+  std::vector<std::uint32_t> labels;
+  labels.reserve(objects.size() * rows_per_object);
+  for (const DatasetObject& object : objects) {
+    labels.insert(labels.end(), rows_per_object, object.category);
+  }
+  return labels;
+}
+
+std::vector<std::uint32_t> FeatureTable::rows_of(std::span<const std::uint32_t> some_objects) const {
+  std::vector<std::uint32_t> rows;
+  rows.reserve(some_objects.size() * rows_per_object);
+  for (const std::uint32_t object : some_objects) {
+    for (std::uint32_t copy = 0; copy < rows_per_object; ++copy) {
+      rows.push_back(object * rows_per_object + copy);
+    }
+  }
+  return rows;
+}
+
+std::span<const float> FeatureTable::features_of(std::uint32_t object) const {
+  const auto row = static_cast<Eigen::Index>(object) * rows_per_object;
+  return {features.row(row).data(), static_cast<std::size_t>(features.cols())};
+}
+
+FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, bool strict, int threads,
+                              const Progress& progress) {
+  settings.validate();
+  std::vector<Described> described(dataset.objects.size());
+  std::mutex mutex;
+  std::size_t done = 0;
+  for_each_index(dataset.objects.size(), threads, [&](std::size_t i) {
+    described[i] = describe_object(dataset.objects[i], settings, strict);
+    const std::lock_guard lock(mutex);
+    ++done;
+    if (progress) {
+      progress("describing objects", done, dataset.objects.size());
+    }
+  });
+  FeatureTable table = collect(dataset, std::move(described), settings);
+  check_categories(table, dataset.name);
+  return table;
+}
+
+}  // namespace spincat

@@ -1,0 +1,41 @@
+// The feature vectors of a whole data set.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "spincat/dataset/dataset.h"
+#include "spincat/judge/gram.h"
+#include "spincat/pipeline/describe.h"
+#include "spincat/pipeline/progress.h"
+#include "spincat/pipeline/settings.h"
+
+namespace spincat {
+
+// Objects that could be read, and their features: row i * rows_per_object is object i itself, the rows after it are its
+// stretched training copies.
+struct FeatureTable {
+  std::vector<DatasetObject> objects;   // N
+  std::vector<std::string> categories;  // n, all of the data set
+  std::vector<SkippedObject> skipped;   // the data set's, and those that could not be read, sorted by file
+  FeatureMatrix features;               // N rows_per_object x D
+  std::uint32_t rows_per_object = 1;
+  std::string encoding;
+  StageSeconds seconds;  // added up over threads
+
+  std::vector<std::uint32_t> object_labels() const;  // N
+  std::vector<std::uint32_t> row_labels() const;     // one for each row
+  // All rows of the given objects: what judges are taught on. A copy never leaves its object.
+  std::vector<std::uint32_t> rows_of(std::span<const std::uint32_t> objects) const;
+  std::span<const float> features_of(std::uint32_t object) const;  // of the object itself
+};
+
+// Reads and describes every object of the data set once, with its copies. The result does not depend on `threads`.
+// Objects that cannot be read are left out and listed with their reason; with `strict` the first of them is thrown as
+// an InputError instead. Throws InputError when fewer than two categories are left.
+FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, bool strict, int threads,
+                              const Progress& progress);
+
+}  // namespace spincat

@@ -1,0 +1,156 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <span>
+#include <string_view>
+
+#include "spincat/error.h"
+#include "spincat/io/file.h"
+#include "spincat/io/magic.h"
+#include "spincat/io/record_file.h"
+#include "spincat/pipeline/model.h"
+#include "spincat/pipeline/settings_json.h"
+
+// Numbers are kept as the machine has them; spincat is built for little-endian machines only.
+static_assert(std::endian::native == std::endian::little);
+
+namespace spincat {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t kMostCategories = 10'000;
+constexpr std::size_t kMostFeatures = 100'000'000;
+
+Json pack_floats(std::span<const float> values) {
+  Json::binary_t blob;
+  blob.resize(values.size_bytes());
+  if (!values.empty()) {
+    std::memcpy(blob.data(), values.data(), values.size_bytes());
+  }
+  return Json::binary(std::move(blob));
+}
+
+const Json& member(const Json& json, const char* name) {
+  const auto at = json.find(name);
+  if (at == json.end()) {
+    throw InputError(fmt::format("model: '{}' is missing", name));
+  }
+  return *at;
+}
+
+// `count` finite floats into `values`.
+void unpack_floats(const Json& json, const char* name, std::span<float> values) {
+  const Json& blob = member(json, name);
+  if (!blob.is_binary() || blob.get_binary().size() != values.size_bytes()) {
+    throw InputError(fmt::format("model: '{}' does not hold {} numbers", name, values.size()));
+  }
+  if (!values.empty()) {
+    std::memcpy(values.data(), blob.get_binary().data(), values.size_bytes());
+  }
+  for (const float value : values) {
+    if (!std::isfinite(value)) {
+      throw InputError(fmt::format("model: '{}' holds a number that is not finite", name));
+    }
+  }
+}
+
+template <class T>
+T value(const Json& json, const char* name) {
+  try {
+    return member(json, name).get<T>();
+  } catch (const Json::exception&) {
+    throw InputError(fmt::format("model: '{}' is of the wrong type", name));
+  }
+}
+
+Json judges_to_json(const JudgeList& judges) {
+  return {{"features", judges.weights.cols()},
+          {"weights", pack_floats({judges.weights.data(), static_cast<std::size_t>(judges.weights.size())})},
+          {"bias", pack_floats({judges.bias.data(), static_cast<std::size_t>(judges.bias.size())})},
+          {"support_vectors", judges.support_vectors}};
+}
+
+JudgeList judges_from_json(const Json& json, std::size_t categories) {
+  const std::size_t count = categories * (categories - 1) / 2;
+  const auto features = value<std::size_t>(json, "features");
+  if (features == 0 || features > kMostFeatures) {
+    throw InputError(fmt::format("model: number of features {} is out of range", features));
+  }
+  // The blob's size is checked against both counts before any memory is taken for them.
+  const Json& weights = member(json, "weights");
+  if (!weights.is_binary() || weights.get_binary().size() / sizeof(float) / count != features) {
+    throw InputError("model: 'weights' is of the wrong size");
+  }
+  JudgeList judges;
+  judges.categories = static_cast<std::uint32_t>(categories);
+  judges.weights.resize(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(features));
+  judges.bias.resize(static_cast<Eigen::Index>(count));
+  unpack_floats(json, "weights", {judges.weights.data(), count * features});
+  unpack_floats(json, "bias", {judges.bias.data(), count});
+  judges.support_vectors = value<std::vector<std::uint32_t>>(json, "support_vectors");
+  if (judges.support_vectors.size() != count) {
+    throw InputError("model: 'support_vectors' does not have one number for each judge");
+  }
+  return judges;
+}
+
+Model model_from_json(const Json& json) {
+  Model model;
+  model.settings = settings_from_json(member(json, "settings"));
+  model.categories = value<std::vector<std::string>>(json, "categories");
+  const std::size_t n = model.categories.size();
+  if (n < 2 || n > kMostCategories || std::set(model.categories.begin(), model.categories.end()).size() != n) {
+    throw InputError("model: 'categories' are not two or more different names");
+  }
+  model.judges = judges_from_json(member(json, "judges"), n);
+  model.calibration.slope = value<double>(member(json, "calibration"), "slope");
+  model.calibration.offset = value<double>(member(json, "calibration"), "offset");
+  if (!std::isfinite(model.calibration.slope) || !std::isfinite(model.calibration.offset)) {
+    throw InputError("model: 'calibration' is not finite");
+  }
+  model.dataset = value<std::string>(json, "dataset");
+  model.made_by = value<std::string>(json, "made_by");
+  model.object_counts = value<std::vector<std::uint32_t>>(json, "object_counts");
+  if (model.object_counts.size() != n) {
+    throw InputError("model: 'object_counts' does not have one number for each category");
+  }
+  return model;
+}
+
+}  // namespace
+
+void write_model(const std::filesystem::path& file, const Model& model) {
+  const Json json = {{"settings", settings_to_json(model.settings)},
+                     {"categories", model.categories},
+                     {"judges", judges_to_json(model.judges)},
+                     {"calibration", {{"slope", model.calibration.slope}, {"offset", model.calibration.offset}}},
+                     {"dataset", model.dataset},
+                     {"object_counts", model.object_counts},
+                     {"made_by", model.made_by}};
+  write_file_atomically(file, pack_record("model", kModelVersion, json));
+}
+
+Model read_model(const std::filesystem::path& file) {
+  const std::string bytes = read_file(file);
+  try {
+    return model_from_json(unpack_record(bytes, "model", kModelVersion));
+  } catch (const InputError& error) {
+    throw InputError(file.string(), error.problem());
+  }
+}
+
+bool is_model_file(const std::filesystem::path& file) {
+  std::array<char, 8> first{};
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(first.data(), first.size());
+  return stream && std::string_view(first.data(), first.size()) == kFileMagic;
+}
+
+}  // namespace spincat

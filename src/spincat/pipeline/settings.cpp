@@ -1,0 +1,67 @@
+#include "spincat/pipeline/settings.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "spincat/encode/encoding.h"
+#include "spincat/error.h"
+
+namespace spincat {
+namespace {
+
+Settings default_preset() {
+  Settings s;
+  s.spin.image_width = 40;
+  s.spin.bin_size = 0.05;
+  s.spin.support_angle = 180.0;
+  s.spin.binning = Binning::nearest;
+  s.spin.angle_test = AngleTest::soft;
+  return s;
+}
+
+Settings paper_preset() {
+  Settings s;
+  s.preset = "paper";
+  s.prepare.surface = SurfaceKind::vertices;
+  s.prepare.orientation = NormalOrientation::as_given;
+  s.prepare.spin_points = 100;
+  s.spin.image_width = 20;
+  s.spin.bin_size = 0.1;
+  s.spin.support_angle = 60.0;
+  s.encoding = "concatenation";
+  s.judge.class_weights = false;
+  s.copies = 0;
+  return s;
+}
+
+}  // namespace
+
+void Settings::validate() const {
+  prepare.validate();
+  spin.validate();
+  judge.validate();
+  make_encoding(encoding)->check(spin);
+  if (copies < 0 || copies > 100) {
+    throw InputError(fmt::format("number of copies {} is out of range (0 to 100)", copies));
+  }
+  if (!(stretch >= 0.0 && stretch <= 2.0)) {
+    throw InputError(fmt::format("stretch {} is out of range (0 to 2)", stretch));
+  }
+}
+
+Settings preset(std::string_view name) {
+  if (name == "default") {
+    return default_preset();
+  }
+  if (name == "paper") {
+    return paper_preset();
+  }
+  throw InputError(fmt::format("preset '{}' is not known (one of {})", name, fmt::join(preset_names(), ", ")));
+}
+
+const std::vector<std::string>& preset_names() {
+  static const std::vector<std::string> names = {"default", "paper"};
+  return names;
+}
+
+}  // namespace spincat

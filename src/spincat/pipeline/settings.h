@@ -1,0 +1,44 @@
+// The settings of the whole road from an object to a name.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "spincat/judge/settings.h"
+#include "spincat/prepare/prepare.h"
+#include "spincat/spin/params.h"
+
+namespace spincat {
+
+// The unit in which a bin size is given.
+enum class BinSizeUnit {
+  absolute,    // the unit of the object's file
+  resolution,  // mesh resolutions (Johnson)
+  relative,    // the object's radius: the distance of its furthest point from the centre of its bounding box
+};
+
+// Everything that decides about the result, and nothing else (no threads, no file names). A model keeps a copy, so that
+// classifying repeats exactly what training did.
+struct Settings {
+  std::string preset = "default";
+  PrepareSettings prepare;
+  SpinImageParams spin;  // spin.bin_size in the unit below
+  BinSizeUnit bin_size_unit = BinSizeUnit::relative;
+  std::string encoding = "pooled-pyramid";
+  JudgeSettings judge;
+  int copies = 6;          // stretched copies of each training object, 0 to 100
+  double stretch = 0.2;    // each axis of a copy is stretched by exp(U(-stretch, stretch)), 0 to 2
+  std::uint64_t seed = 1;  // of every random choice
+
+  // Throws InputError naming the field, its value and the allowed range.
+  void validate() const;
+};
+
+// Named settings: "default" (the best we know; docs/encoding.md) and "paper" (as the paper describes it: 100 random
+// vertices, bilinear images of 20 x 20, concatenated). Throws InputError that lists the names when there is none.
+Settings preset(std::string_view name);
+const std::vector<std::string>& preset_names();
+
+}  // namespace spincat

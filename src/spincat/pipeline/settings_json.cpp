@@ -1,0 +1,95 @@
+#include "spincat/pipeline/settings_json.h"
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "spincat/error.h"
+#include "spincat/pipeline/setting_names.h"
+
+namespace spincat {
+namespace {
+
+using Json = nlohmann::json;
+
+template <class T>
+T field(const Json& json, const char* name) {
+  const auto at = json.find(name);
+  if (at == json.end()) {
+    throw InputError(fmt::format("setting '{}' is missing", name));
+  }
+  try {
+    return at->get<T>();
+  } catch (const Json::exception&) {
+    throw InputError(fmt::format("setting '{}' is of the wrong type", name));
+  }
+}
+
+// A whole number: a fraction, or a number beyond the type, is not quietly cut.
+template <class T>
+T whole(const Json& json, const char* name) {
+  const auto at = json.find(name);
+  if (at == json.end()) {
+    throw InputError(fmt::format("setting '{}' is missing", name));
+  }
+  if (!at->is_number_integer() || *at != Json(at->get<T>())) {
+    throw InputError(fmt::format("setting '{}' is not a whole number in range", name));
+  }
+  return at->get<T>();
+}
+
+template <class Choice>
+Choice choice(const Json& json, const char* name) {
+  return choice_of<Choice>(name, field<std::string>(json, name));
+}
+
+}  // namespace
+
+nlohmann::ordered_json settings_to_json(const Settings& s) {
+  return {{"preset", s.preset},
+          {"surface", name_of(s.prepare.surface)},
+          {"orientation", name_of(s.prepare.orientation)},
+          {"points", s.prepare.points},
+          {"spin_points", s.prepare.spin_points},
+          {"neighbours", s.prepare.neighbours},
+          {"convention", name_of(s.spin.convention)},
+          {"image_width", s.spin.image_width},
+          {"bin_size", s.spin.bin_size},
+          {"bin_size_unit", name_of(s.bin_size_unit)},
+          {"support_angle", s.spin.support_angle},
+          {"binning", name_of(s.spin.binning)},
+          {"angle_test", name_of(s.spin.angle_test)},
+          {"encoding", s.encoding},
+          {"c", s.judge.c},
+          {"class_weights", s.judge.class_weights},
+          {"copies", s.copies},
+          {"stretch", s.stretch},
+          {"seed", s.seed}};
+}
+
+Settings settings_from_json(const Json& json) {
+  Settings s;
+  s.preset = field<std::string>(json, "preset");
+  s.prepare.surface = choice<SurfaceKind>(json, "surface");
+  s.prepare.orientation = choice<NormalOrientation>(json, "orientation");
+  s.prepare.points = whole<int>(json, "points");
+  s.prepare.spin_points = whole<int>(json, "spin_points");
+  s.prepare.neighbours = whole<int>(json, "neighbours");
+  s.spin.convention = choice<SpinConvention>(json, "convention");
+  s.spin.image_width = whole<int>(json, "image_width");
+  s.spin.bin_size = field<double>(json, "bin_size");
+  s.bin_size_unit = choice<BinSizeUnit>(json, "bin_size_unit");
+  s.spin.support_angle = field<double>(json, "support_angle");
+  s.spin.binning = choice<Binning>(json, "binning");
+  s.spin.angle_test = choice<AngleTest>(json, "angle_test");
+  s.encoding = field<std::string>(json, "encoding");
+  s.judge.c = field<double>(json, "c");
+  s.judge.class_weights = field<bool>(json, "class_weights");
+  s.copies = whole<int>(json, "copies");
+  s.stretch = field<double>(json, "stretch");
+  s.seed = whole<std::uint64_t>(json, "seed");
+  s.validate();
+  return s;
+}
+
+}  // namespace spincat

@@ -1,0 +1,41 @@
+#include "spincat/pipeline/train.h"
+
+#include <numeric>
+
+#include "spincat/pipeline/feature_table.h"
+#include "spincat/pipeline/stopwatch.h"
+#include "spincat/pipeline/teach.h"
+
+namespace spincat {
+
+TrainResult train(const Dataset& dataset, const Settings& settings, const TrainOptions& options,
+                  const Progress& progress) {
+  // Describe every object and its stretched copies once.
+  const FeatureTable table = describe_dataset(dataset, settings, options.strict, options.threads, progress);
+  std::vector<std::uint32_t> objects(table.objects.size());
+  std::iota(objects.begin(), objects.end(), 0U);
+
+  // Teach a judge for every pair of categories, and find out how far their votes can be trusted.
+  Stopwatch watch;
+  const Eigen::MatrixXf gram = shared_gram(table, options.threads);
+  TrainResult result;
+  Model& model = result.model;
+  model.judges = teach_judges(table, gram, objects, settings.judge, options.threads, progress);
+  model.calibration = calibrate(table, gram, objects, settings.judge, settings.seed, options.threads, progress);
+
+  // Keep what classifying needs to repeat all of this.
+  model.settings = settings;
+  model.categories = table.categories;
+  model.dataset = dataset.name;
+  model.made_by = "spincat " SPINCAT_VERSION;
+  model.object_counts.assign(table.categories.size(), 0);
+  for (const DatasetObject& object : table.objects) {
+    ++model.object_counts[object.category];
+  }
+  result.skipped = table.skipped;
+  result.seconds = table.seconds;
+  result.seconds.judge += watch.lap();
+  return result;
+}
+
+}  // namespace spincat

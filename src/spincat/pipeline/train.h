@@ -1,0 +1,30 @@
+// Learning: from a data set to a model.
+#pragma once
+
+#include <vector>
+
+#include "spincat/dataset/dataset.h"
+#include "spincat/pipeline/describe.h"
+#include "spincat/pipeline/model.h"
+#include "spincat/pipeline/progress.h"
+#include "spincat/pipeline/settings.h"
+
+namespace spincat {
+
+struct TrainOptions {
+  bool strict = false;  // an object that cannot be read ends the training instead of being left out
+  int threads = 1;      // never changes the result
+};
+
+struct TrainResult {
+  Model model;
+  std::vector<SkippedObject> skipped;
+  StageSeconds seconds;  // added up over threads; judge: teaching and calibration
+};
+
+// Teaches the judges on every object of the data set. Deterministic.
+// Throws InputError when settings are out of range or fewer than two categories have an object that can be read.
+TrainResult train(const Dataset& dataset, const Settings& settings, const TrainOptions& options,
+                  const Progress& progress = {});
+
+}  // namespace spincat

@@ -1,0 +1,91 @@
+#include "spincat/prepare/facts.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "spincat/prepare/normals.h"
+#include "spincat/prepare/repeats.h"
+#include "spincat/prepare/resolution.h"
+
+namespace spincat {
+namespace {
+
+std::size_t count_repeated(std::span<const std::uint32_t> first) {
+  std::size_t repeated = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    repeated += first[i] != i ? 1 : 0;
+  }
+  return repeated;
+}
+
+std::size_t count_unused(const Mesh& mesh) {
+  std::vector<bool> used(mesh.vertices.size(), false);
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) {
+      used[v] = true;
+    }
+  }
+  return static_cast<std::size_t>(std::ranges::count(used, false));
+}
+
+void add_mesh_facts(const Mesh& mesh, std::span<const std::uint32_t> first, ObjectFacts& facts) {
+  facts.triangles = mesh.triangles.size();
+  facts.unused_vertices = count_unused(mesh);
+  const std::vector<Vec3> normals = face_area_normals(mesh);
+  std::vector<Triangle> corners;
+  for (std::size_t f = 0; f < normals.size(); ++f) {
+    const double area = normals[f].norm();
+    facts.area += area;
+    if (area > 0.0) {
+      const Triangle& t = mesh.triangles[f];
+      Triangle sorted = {first[t[0]], first[t[1]], first[t[2]]};
+      std::ranges::sort(sorted);
+      corners.push_back(sorted);
+    } else {
+      ++facts.flat_triangles;
+    }
+  }
+  std::ranges::sort(corners);
+  facts.repeated_triangles = std::ranges::unique(corners).size();
+  facts.resolution = mesh_resolution(mesh);
+}
+
+std::vector<Vec3> distinct(std::span<const Vec3> points, std::span<const std::uint32_t> first) {
+  std::vector<Vec3> result;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (first[i] == i) {
+      result.push_back(points[i]);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+ObjectFacts facts_of(const Object& object) {
+  ObjectFacts facts;
+  const auto* mesh = std::get_if<Mesh>(&object);
+  const auto* cloud = std::get_if<PointCloud>(&object);
+  const std::vector<Vec3>& points = mesh != nullptr ? mesh->vertices : cloud->points;
+  facts.is_mesh = mesh != nullptr;
+  facts.points = points.size();
+  facts.low = facts.high = points.front();
+  for (const Vec3& p : points) {
+    facts.low = facts.low.cwiseMin(p);
+    facts.high = facts.high.cwiseMax(p);
+  }
+  const std::vector<std::uint32_t> first = first_at_position(points);
+  facts.repeated_points = count_repeated(first);
+  if (mesh != nullptr) {
+    add_mesh_facts(*mesh, first, facts);
+  } else {
+    facts.has_normals = !cloud->normals.empty();
+    facts.resolution = cloud_resolution(distinct(points, first));
+  }
+  return facts;
+}
+
+}  // namespace spincat

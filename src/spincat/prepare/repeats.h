@@ -1,0 +1,15 @@
+// Which positions are the same.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "spincat/geometry/object.h"
+
+namespace spincat {
+
+// For each point the index of the first point at exactly its position (its own index where it is that first one).
+std::vector<std::uint32_t> first_at_position(std::span<const Vec3> points);
+
+}  // namespace spincat

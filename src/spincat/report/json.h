@@ -1,0 +1,37 @@
+// Results as JSON for programs; the keys are a promise (docs/json.md).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "spincat/pipeline/classify.h"
+#include "spincat/pipeline/evaluate.h"
+#include "spincat/pipeline/model.h"
+#include "spincat/pipeline/train.h"
+#include "spincat/prepare/facts.h"
+
+namespace spincat {
+
+// One line each, without the line's end. Texts that are no UTF-8 get U+FFFD in place of what is wrong.
+// {"file", "category", "confidence", "votes": {category: n}, "milliseconds"}, and with `every_judge` also
+// "judges": [{"a", "b", "vote", "margin"}]
+std::string classification_json(const std::string& file, const Classification& classification, const Model& model,
+                                bool every_judge);
+// {"file", "error"}
+std::string error_json(const std::string& file, const std::string& error);
+
+// {"dataset", "objects", "categories", "splits", "mean_class_rate", "mean_class_rate_std", "overall_rate",
+//  "overall_rate_std", "confusion", "seconds", "object_counts", "stage_seconds", "settings", "skipped"}
+std::string evaluation_json(const Evaluation& evaluation, const Settings& settings);
+
+// {"file", "kind": "model", "made_by", "dataset", "categories", "object_counts", "features", "judges", "settings"}
+std::string model_json(const std::string& file, const Model& model);
+
+// {"file", "kind": "mesh" or "point cloud", "points", "triangles", "size", "area", "resolution", "defects": {name: n}}
+std::string object_json(const std::string& file, const ObjectFacts& facts);
+
+// As model_json, and "skipped": [{"file", "error"}], "stage_seconds"
+std::string training_json(const std::string& file, const TrainResult& result);
+
+}  // namespace spincat

@@ -1,0 +1,315 @@
+// The spincat command as a user meets it: exit codes, streams, files.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "support/temp_dir.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+std::string contents(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> result;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    result.push_back(line);
+  }
+  return result;
+}
+
+// A box (8 corners) as an OFF file.
+std::string box_off(double x, double y, double z) {
+  std::string off = "OFF\n8 6 0\n";
+  for (int i = 0; i < 8; ++i) {
+    off += fmt::format("{} {} {}\n", (i & 1) != 0 ? x : 0.0, (i & 2) != 0 ? y : 0.0, (i & 4) != 0 ? z : 0.0);
+  }
+  return off + "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n";
+}
+
+// A cone with 16 sides as an OFF file.
+std::string cone_off(double radius, double height) {
+  std::string off = fmt::format("OFF\n17 17 0\n0 0 {}\n", height);
+  std::string base = "16";
+  for (int i = 0; i < 16; ++i) {
+    off += fmt::format("{} {} 0\n", radius * std::cos(i * 0.3926990817), radius * std::sin(i * 0.3926990817));
+    base += fmt::format(" {}", 16 - i);
+  }
+  for (int i = 0; i < 16; ++i) {
+    off += fmt::format("3 0 {} {}\n", 1 + i, 1 + (i + 1) % 16);
+  }
+  return off + base + "\n";
+}
+
+class Command : public testing::Test {
+ protected:
+  struct Result {
+    int code = -1;
+    std::string out;
+    std::string err;
+  };
+
+  // Runs the command in the temporary folder through the shell, so that redirections can be tested.
+  Result run(const std::string& arguments, const std::string& redirect = "") {
+    const fs::path out = dir_.path() / ".out";
+    const fs::path err = dir_.path() / ".err";
+    const std::string line = fmt::format("cd '{}' && '{}' {} >'{}' 2>'{}' </dev/null {}", dir_.path().string(),
+                                         SPINCAT_COMMAND, arguments, out.string(), err.string(), redirect);
+    const int status = std::system(line.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contents(out), contents(err)};
+  }
+
+  // Two categories of six objects, and one of each that is new.
+  void make_shapes() {
+    for (int i = 0; i < 6; ++i) {
+      dir_.write(fmt::format("shapes/box/{}.off", i), box_off(1.0 + 0.1 * i, 1.0, 1.2));
+      dir_.write(fmt::format("shapes/cone/{}.off", i), cone_off(0.5, 1.0 + 0.1 * i));
+    }
+    dir_.write("new box.off", box_off(1.0, 1.15, 0.95));
+    dir_.write("new-cone.off", cone_off(0.55, 1.3));
+  }
+
+  void train() {
+    make_shapes();
+    const Result result = run("train shapes -o shapes.spincat --copies 1 --points 256 --spin-points 32 --threads 2");
+    ASSERT_EQ(result.code, 0) << result.err;
+  }
+
+  std::size_t files_in_dir() {
+    std::size_t n = 0;
+    for (const auto& entry : fs::directory_iterator(dir_.path())) {
+      n += entry.path().filename() == ".out" || entry.path().filename() == ".err" ? 0 : 1;
+    }
+    return n;
+  }
+
+  spincat::test::TempDir dir_;
+};
+
+TEST_F(Command, TrainsAndNamesNewObjects) {
+  train();
+  const Result result = run("classify shapes.spincat 'new box.off' new-cone.off");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  const auto rows = lines(result.out);
+  ASSERT_EQ(rows.size(), 3U) << result.out;
+  EXPECT_EQ(rows[0].substr(0, 4), "file");
+  EXPECT_EQ(rows[1].find("new box.off   box"), 0U) << rows[1];
+  EXPECT_EQ(rows[2].find("new-cone.off  cone"), 0U) << rows[2];
+}
+
+TEST_F(Command, ClassifyJsonHasThePromisedKeysALine) {
+  train();
+  const Result result = run("classify shapes.spincat new-cone.off missing.off --json --votes");
+  EXPECT_EQ(result.code, 2);
+  const auto rows = lines(result.out);
+  ASSERT_EQ(rows.size(), 2U) << result.out;
+  const Json named = Json::parse(rows[0]);
+  EXPECT_EQ(named.at("file"), "new-cone.off");
+  EXPECT_EQ(named.at("category"), "cone");
+  EXPECT_GT(named.at("confidence").get<double>(), 0.5);
+  EXPECT_LT(named.at("confidence").get<double>(), 1.0);
+  EXPECT_EQ(named.at("votes"), Json::parse(R"({"box": 0, "cone": 1})"));
+  EXPECT_GT(named.at("milliseconds").get<double>(), 0.0);
+  EXPECT_EQ(named.at("judges").size(), 1U);
+  const Json failed = Json::parse(rows[1]);
+  EXPECT_EQ(failed.at("file"), "missing.off");
+  EXPECT_EQ(failed.at("error"), "missing.off: no such file");
+}
+
+TEST_F(Command, OneSeedGivesTheSameBytesWhateverTheThreads) {
+  make_shapes();
+  ASSERT_EQ(run("train shapes -o a.spincat --copies 1 --points 256 --spin-points 32 --threads 1").code, 0);
+  ASSERT_EQ(run("train shapes -o b.spincat --copies 1 --points 256 --spin-points 32 --threads 3").code, 0);
+  ASSERT_EQ(run("train shapes -o c.spincat --copies 1 --points 256 --spin-points 32 --seed 2").code, 0);
+  const std::string a = contents(dir_.path() / "a.spincat");
+  EXPECT_GT(a.size(), 1000U);
+  EXPECT_TRUE(a == contents(dir_.path() / "b.spincat"));
+  EXPECT_FALSE(a == contents(dir_.path() / "c.spincat"));
+}
+
+TEST_F(Command, EvaluateJsonHasThePromisedKeys) {
+  make_shapes();
+  const Result result = run("evaluate shapes --splits 3 --copies 1 --points 256 --spin-points 32 --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const Json json = Json::parse(result.out);
+  EXPECT_EQ(json.at("dataset"), "shapes");
+  EXPECT_EQ(json.at("objects"), 12);
+  EXPECT_EQ(json.at("categories"), Json::parse(R"(["box", "cone"])"));
+  EXPECT_EQ(json.at("splits"), 3);
+  EXPECT_EQ(json.at("mean_class_rate"), 1.0);
+  EXPECT_EQ(json.at("mean_class_rate_std"), 0.0);
+  EXPECT_EQ(json.at("overall_rate"), 1.0);
+  EXPECT_EQ(json.at("overall_rate_std"), 0.0);
+  EXPECT_EQ(json.at("confusion"), Json::parse("[[3, 0], [0, 3]]"));
+  EXPECT_GT(json.at("seconds").get<double>(), 0.0);
+}
+
+TEST_F(Command, EvaluateWorksWithThePaperPreset) {
+  make_shapes();
+  const Result result = run("evaluate shapes --splits 2 --preset paper --bin-size 0.2rel --support-angle 90");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("mean-class rate"), std::string::npos);
+}
+
+TEST_F(Command, InfoTellsAModelFromAnObject) {
+  train();
+  EXPECT_EQ(Json::parse(run("info shapes.spincat --json").out).at("kind"), "model");
+  const Json object = Json::parse(run("info new-cone.off --json").out);
+  EXPECT_EQ(object.at("kind"), "mesh");
+  EXPECT_EQ(object.at("points"), 17);
+  EXPECT_EQ(object.at("triangles"), 30);
+  EXPECT_EQ(run("info shapes.spincat").code, 0);
+  EXPECT_EQ(run("info new-cone.off").code, 0);
+}
+
+// Everything a user can get wrong: exit code 2 and one line on standard error that says what.
+TEST_F(Command, WrongUseAndBadInputAreOneLineAndExitTwo) {
+  train();
+  dir_.write("empty.off", "");
+  dir_.write("notes.docx", "hello");
+  dir_.write("damaged.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n");
+  dir_.write("same.xyz", "1 1 1\n1 1 1\n");
+  dir_.write("one/box/a.off", box_off(1, 1, 1));
+  dir_.write("one/box/b.off", box_off(1, 2, 1));
+  fs::create_directory(dir_.path() / "empty");
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"", "subcommand"},
+      {"frobnicate", "frobnicate"},
+      {"train shapes", "--output"},
+      {"train shapes -o nowhere/x.spincat", "nowhere"},
+      {"train shapes -o shapes", "shapes: "},
+      {"train absent -o x.spincat", "absent: "},
+      {"train empty -o x.spincat", "empty: "},
+      {"train one -o x.spincat", "only one category"},
+      {"train shapes -o x.spincat --preset best", "preset 'best'"},
+      {"train shapes -o x.spincat --image-width 0", "image width 0"},
+      {"train shapes -o x.spincat --bin-size 1inch", "--bin-size 1inch"},
+      {"train shapes -o x.spincat --bin-size -1", "bin size -1"},
+      {"train shapes -o x.spincat --encoding hash", "encoding 'hash'"},
+      {"evaluate shapes --splits 0", "splits 0"},
+      {"evaluate shapes --test 1.5", "1.5"},
+      {"classify shapes.spincat", "files is required"},
+      {"classify new-cone.off new-cone.off", "new-cone.off: is not a spincat"},
+      {"classify shapes.spincat shapes.spincat", "shapes.spincat: is a spincat model, not an object"},
+      {"classify shapes.spincat absent.off", "absent.off: no such file"},
+      {"classify shapes.spincat empty.off", "empty.off: is empty"},
+      {"classify shapes.spincat notes.docx", "notes.docx: unknown format '.docx'"},
+      {"classify shapes.spincat damaged.off", "damaged.off: line 6: "},
+      {"classify shapes.spincat same.xyz", "same.xyz: all its points are at one place"},
+      {"classify shapes.spincat empty", "empty: holds no object files"},
+      {"info absent", "absent: "},
+  };
+  const std::size_t files = files_in_dir();
+  for (const auto& [arguments, problem] : cases) {
+    const Result result = run(arguments);
+    EXPECT_EQ(result.code, 2) << arguments << "\n" << result.err;
+    EXPECT_EQ(result.out, "") << arguments;
+    EXPECT_EQ(lines(result.err).size(), 1U) << arguments << "\n" << result.err;
+    EXPECT_EQ(result.err.rfind("spincat: ", 0), 0U) << arguments << "\n" << result.err;
+    EXPECT_NE(result.err.find(problem), std::string::npos) << arguments << "\n" << result.err;
+  }
+  EXPECT_EQ(files_in_dir(), files);  // nothing was left behind
+}
+
+TEST_F(Command, AFullDiskIsAnErrorAndNeverAModel) {
+  make_shapes();
+  const Result to_full = run("train shapes -o /dev/full --copies 0 --points 256 --spin-points 32");
+  EXPECT_EQ(to_full.code, 1);
+  EXPECT_EQ(to_full.err, "spincat: /dev/full: cannot write: no space left on device\n");
+  const Result printed = run("--help", ">/dev/full");
+  EXPECT_EQ(printed.code, 1);
+  EXPECT_EQ(printed.err, "spincat: standard output: No space left on device\n");
+}
+
+TEST_F(Command, UnreadableObjectsAreSkippedOrStrict) {
+  make_shapes();
+  dir_.write("shapes/box/broken.off", "OFF\n1 1 0\n");
+  const Result skipped = run("train shapes -o x.spincat --copies 0 --points 256 --spin-points 32");
+  EXPECT_EQ(skipped.code, 0);
+  EXPECT_NE(skipped.err.find("spincat: shapes/box/broken.off: "), std::string::npos) << skipped.err;
+  EXPECT_NE(skipped.err.find("(skipped)"), std::string::npos) << skipped.err;
+  EXPECT_EQ(run("train shapes -o x.spincat --copies 0 --points 256 --spin-points 32 --quiet").err, "");
+  const Result strict = run("train shapes -o y.spincat --copies 0 --points 256 --spin-points 32 --strict");
+  EXPECT_EQ(strict.code, 2);
+  EXPECT_EQ(lines(strict.err).size(), 1U) << strict.err;
+  EXPECT_FALSE(fs::exists(dir_.path() / "y.spincat"));
+}
+
+TEST_F(Command, ABatchNamesTheGoodAndReportsTheBadOnce) {
+  train();
+  dir_.write("batch/a.off", box_off(1, 1, 1));
+  dir_.write("batch/b.off", "garbage");
+  dir_.write("batch/sub/c.off", cone_off(1, 2));
+  dir_.write("batch/notes.txt", "passed over");
+  const Result result = run("classify shapes.spincat batch --threads 2");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(lines(result.out).size(), 3U) << result.out;  // head and two rows
+  ASSERT_EQ(lines(result.err).size(), 2U) << result.err;
+  EXPECT_EQ(lines(result.err)[0].rfind("spincat: batch/b.off: ", 0), 0U);
+  EXPECT_EQ(lines(result.err)[1], "spincat: 1 of 3 objects could not be named");
+}
+
+TEST_F(Command, ADamagedOrNewerModelIsRefused) {
+  train();
+  std::string bytes = contents(dir_.path() / "shapes.spincat");
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  dir_.write("damaged.spincat", bytes);
+  const Result result = run("classify damaged.spincat new-cone.off");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("damaged.spincat: is damaged"), std::string::npos) << result.err;
+}
+
+TEST_F(Command, CtrlCLeavesTheOldModelAndNothingElse) {
+  make_shapes();
+  dir_.write("x.spincat", "old");
+  const std::size_t files = files_in_dir();
+  const fs::path pid_file = dir_.path() / "shapes" / "pid";
+  std::thread interrupter([&] {
+    // Only once it runs: the shell writes the number of the process that then becomes the command.
+    for (int i = 0; i < 500 && contents(pid_file).empty(); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    kill(std::stoi(contents(pid_file)), SIGINT);
+  });
+  const std::string line = fmt::format(
+      "cd '{}' && sh -c 'echo $$ > shapes/pid; exec \"{}\" train shapes -o x.spincat --copies 100 "
+      "--points 200000' 2>.err",
+      dir_.path().string(), SPINCAT_COMMAND);
+  const int status = std::system(line.c_str());
+  interrupter.join();
+  EXPECT_EQ(WEXITSTATUS(status), 128 + SIGINT);
+  EXPECT_EQ(contents(dir_.path() / ".err"), "spincat: interrupted\n");
+  EXPECT_EQ(contents(dir_.path() / "x.spincat"), "old");
+  EXPECT_EQ(files_in_dir(), files);
+}
+
+TEST_F(Command, EverySubcommandHasHelpWithAnExample) {
+  for (const std::string command : {"", "train", "classify", "evaluate", "info"}) {
+    const Result result = run(command + " --help");
+    EXPECT_EQ(result.code, 0);
+    EXPECT_NE(result.out.find("Example:"), std::string::npos) << command;
+    EXPECT_EQ(result.err, "");
+  }
+  EXPECT_EQ(run("--version").out.rfind("spincat ", 0), 0U);
+}
+
+}  // namespace

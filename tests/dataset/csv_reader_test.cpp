@@ -1,0 +1,92 @@
+#include "spincat/dataset/csv_reader.h"
+
+#include <gtest/gtest.h>
+
+#include "expect_error.h"
+#include "support/temp_dir.h"
+
+namespace spincat {
+namespace {
+
+using test::input_error;
+using namespace std::string_literals;
+using Fields = std::vector<std::string>;
+using Rows = std::vector<std::pair<std::size_t, Fields>>;
+
+Rows parsed(std::string_view text) {
+  Rows rows;
+  for (const CsvRow& row : parse_csv(text, "f.csv")) {
+    rows.emplace_back(row.line, row.fields);
+  }
+  return rows;
+}
+
+std::string error_of(std::string_view text) {
+  return input_error([&] { parse_csv(text, "f.csv"); });
+}
+
+TEST(CsvReader, ReadsFieldsWithTheirLines) {
+  EXPECT_EQ(parsed("a,b\nc, d \n"), (Rows{{1, {"a", "b"}}, {2, {"c", " d "}}}));
+  EXPECT_EQ(parsed(""), Rows{});
+  EXPECT_EQ(parsed("a,\n,b"), (Rows{{1, {"a", ""}}, {2, {"", "b"}}}));
+  EXPECT_EQ(parsed("a,"), (Rows{{1, {"a", ""}}}));
+}
+
+TEST(CsvReader, EndsLinesByLfCrlfOrCr) {
+  EXPECT_EQ(parsed("a\nb\r\nc\rd"), (Rows{{1, {"a"}}, {2, {"b"}}, {3, {"c"}}, {4, {"d"}}}));
+}
+
+TEST(CsvReader, SkipsByteOrderMarkCommentsAndEmptyLines) {
+  EXPECT_EQ(parsed("\xEF\xBB\xBF# a \"comment\r\n\r\na,#b\n#\n"), (Rows{{3, {"a", "#b"}}}));
+  EXPECT_EQ(parsed("\"#a\"\n# at the end"), (Rows{{1, {"#a"}}}));
+}
+
+TEST(CsvReader, ReadsQuotedFields) {
+  EXPECT_EQ(parsed("\"a,\"\"b\"\"\",\"\"\nc,d"), (Rows{{1, {"a,\"b\"", ""}}, {2, {"c", "d"}}}));
+}
+
+TEST(CsvReader, KeepsAndCountsLineEndsInsideQuotes) {
+  EXPECT_EQ(parsed("\"a\r\nb\n# c\",d\ne,f"), (Rows{{1, {"a\r\nb\n# c", "d"}}, {4, {"e", "f"}}}));
+}
+
+TEST(CsvReader, RefusesQuotesThatDoNotFit) {
+  EXPECT_EQ(error_of("a\n\"b\nc"), "f.csv: line 2: the quoted field that begins here never ends");
+  EXPECT_EQ(error_of("a\n\"b\"c"), "f.csv: line 2: text after the closing quote of a field");
+  EXPECT_EQ(error_of("a\nb\"c"),
+            "f.csv: line 2: a quote inside a field (put quotes around the field and write \"\" for one inside)");
+}
+
+TEST(CsvReader, RefusesZeroBytes) {
+  EXPECT_EQ(error_of("a\nb\0c"s), "f.csv: line 2: a zero byte: this is no plain text (expected UTF-8)");
+  EXPECT_EQ(error_of("\"\0\""s), "f.csv: line 1: a zero byte: this is no plain text (expected UTF-8)");
+}
+
+TEST(CsvTable, FindsColumnsByName) {
+  const test::TempDir dir;
+  const CsvTable table = read_csv_table(dir.write("t.csv", "# note\npath,other,category\na,b,c\n"));
+  EXPECT_EQ(table.column("category"), 2U);
+  EXPECT_EQ(table.find_column("split"), std::nullopt);
+  ASSERT_EQ(table.rows.size(), 1U);
+  EXPECT_EQ(table.rows[0].line, 3U);
+}
+
+TEST(CsvTable, NamesWhatIsWrong) {
+  const test::TempDir dir;
+  const std::string file = (dir / "t.csv").string();
+  const auto error = [&](std::string_view text) {
+    dir.write("t.csv", text);
+    return input_error([&] {
+      const CsvTable table = read_csv_table(file);
+      table.filled(table.rows.at(0), table.column("path"));
+    });
+  };
+  EXPECT_EQ(error("# nothing\n"), file + ": is empty (expected a header line that names the columns)");
+  EXPECT_EQ(error("Path; x\n"),
+            file + ": the header line names no column 'path' (found: 'Path; x'; commas separate columns)");
+  EXPECT_EQ(error("\npath,path\n"), file + ": line 2: two columns are called 'path'");
+  EXPECT_EQ(error("path,a\nb,c\nd\n"), file + ": line 3: 1 field, expected 2 as in the header line");
+  EXPECT_EQ(error("path,a\n,c\n"), file + ": line 2: the path is empty");
+}
+
+}  // namespace
+}  // namespace spincat

@@ -1,0 +1,165 @@
+#include "spincat/io/record_file.h"
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include "spincat/error.h"
+
+namespace spincat {
+namespace {
+
+using nlohmann::json;
+using namespace std::string_literals;
+
+json small_content() {
+  return {{"categories", {"chair", "st\xFChle"}},
+          {"bin", 0.1},
+          {"seed", 18446744073709551615U},
+          {"offset", -7},
+          {"weights", json::binary({0, 255, 26, 10, 13})},
+          {"nothing", nullptr},
+          {"flag", true}};
+}
+
+std::string error_of(std::string_view bytes, std::string_view kind = "model", std::uint32_t newest = 2) {
+  try {
+    unpack_record(bytes, kind, newest);
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.file(), "");
+    return error.what();
+  }
+  return "no error";
+}
+
+template <class T>
+std::string little_endian(T value) {
+  std::string bytes;
+  for (std::size_t i = 0; i < sizeof(T); ++i) {
+    bytes += static_cast<char>(value >> (8 * i) & 0xFF);
+  }
+  return bytes;
+}
+
+// A record that is right in everything but, maybe, its payload.
+std::string record_of(std::string_view payload) {
+  std::string bytes = "SPINCAT\x1A"s + "\5\0\0\0model"s + "\1\0\0\0"s;
+  bytes += little_endian(static_cast<std::uint64_t>(payload.size()));
+  bytes += payload;
+  return bytes + little_endian(static_cast<std::uint32_t>(
+                     crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size())));
+}
+
+TEST(RecordFile, GivesBackWhatWasPacked) {
+  for (const json& content : {small_content(), json::object(), json(), json("text"), json::array({json::array()})}) {
+    const std::string bytes = pack_record("model", 2, content);
+    EXPECT_EQ(unpack_record(bytes, "model", 2), content);
+    EXPECT_EQ(pack_record("model", 2, unpack_record(bytes, "model", 3)), bytes);
+  }
+}
+
+TEST(RecordFile, HasTheDocumentedLayout) {
+  EXPECT_EQ(pack_record("model", 1, json{{"a", json::binary({1, 2})}}), record_of("\xA1\x61\x61\x42\x01\x02"));
+}
+
+TEST(RecordFile, KeepsLargeBlobs) {
+  std::vector<std::uint8_t> blob(300'000);
+  for (std::size_t i = 0; i < blob.size(); ++i) {
+    blob[i] = static_cast<std::uint8_t>(i * 7);
+  }
+  const json content = {{"blob", json::binary(blob)}};
+  EXPECT_EQ(unpack_record(pack_record("model", 1, content), "model", 1), content);
+}
+
+TEST(RecordFile, RefusesEveryDamagedByte) {
+  const std::string good = pack_record("model", 2, small_content());
+  for (std::size_t i = 0; i < good.size(); ++i) {
+    for (int change = 1; change < 256; ++change) {
+      std::string bad = good;
+      bad[i] = static_cast<char>(bad[i] ^ change);
+      ASSERT_NE(error_of(bad), "no error") << "byte " << i << " changed by " << change;
+    }
+  }
+}
+
+TEST(RecordFile, RefusesEveryTruncation) {
+  const std::string good = pack_record("model", 2, small_content());
+  for (std::size_t size = 0; size < good.size(); ++size) {
+    const std::string error = error_of(good.substr(0, size));
+    ASSERT_EQ(error.substr(0, 12), size < 8 ? "is not a spi" : "is truncated") << size;
+  }
+}
+
+TEST(RecordFile, NamesWhatIsWrong) {
+  const std::string good = pack_record("model", 2, small_content());
+  const std::string size = std::to_string(good.size());
+  EXPECT_EQ(error_of("OFF\n8 6 12\n"), "is not a spincat file");
+  EXPECT_EQ(error_of(pack_record("journal", 9, 1)), "is a spincat journal, not a model");
+  EXPECT_EQ(error_of(good.substr(0, good.size() - 1)),
+            "is truncated: expected " + size + " bytes, has " + std::to_string(good.size() - 1));
+  EXPECT_EQ(error_of(good + "\n"), "is too long: expected " + size + " bytes, has " + std::to_string(good.size() + 1));
+  std::string damaged = good;
+  damaged[40] ^= 1;
+  EXPECT_EQ(error_of(damaged), "is damaged: its checksum does not match");
+}
+
+TEST(RecordFile, NamesANewerVersionBeforeAnythingBehindIt) {
+  std::string newer = pack_record("model", 3, small_content());
+  const std::string message = "was written by a newer spincat (model format 3, this one reads up to 2)";
+  EXPECT_EQ(error_of(newer), message);
+  newer.back() ^= 1;
+  EXPECT_EQ(error_of(newer), message);
+  EXPECT_EQ(error_of(newer.substr(0, newer.size() - 3)), message);
+}
+
+TEST(RecordFile, RefusesLengthsThatCannotBe) {
+  const std::string header = "SPINCAT\x1A"s + "\5\0\0\0model"s + "\1\0\0\0"s;
+  EXPECT_EQ(error_of(header + std::string(8, '\xFF')), "is truncated: expected 18446744073709551615 bytes, has 29");
+  EXPECT_EQ(error_of("SPINCAT\x1A\xFF\xFF\xFF\xFFmodel"), "is damaged: its kind is unreadable");
+  EXPECT_EQ(error_of("SPINCAT\x1A\5\0\0\0m\nd\0l"s), "is damaged: its kind is unreadable");
+}
+
+TEST(RecordFile, NestsThirtyTwoDeepAndNoDeeper) {
+  json content = 1;
+  for (int i = 0; i < 32; ++i) {
+    content = json::array({std::move(content)});
+  }
+  EXPECT_EQ(unpack_record(pack_record("model", 1, content), "model", 1), content);
+  EXPECT_THROW(pack_record("model", 1, json::array({content})), InputError);
+}
+
+TEST(RecordFile, RefusesDeepNesting) {
+  const std::string message = "is damaged: its content is nested more than 32 deep";
+  constexpr std::size_t kDeep = 5'000'000;
+  EXPECT_EQ(error_of(record_of(std::string(kDeep, '\x81') + "\1")), message);
+  std::string maps;
+  for (std::size_t i = 0; i < kDeep / 2; ++i) {
+    maps += "\xA1\x60";
+  }
+  EXPECT_EQ(error_of(record_of(maps + "\1")), message);
+}
+
+// nlohmann's parser recurses into these without telling its SAX handler.
+TEST(RecordFile, RefusesChunkedStringsAndTagsHoweverDeep) {
+  constexpr std::size_t kDeep = 5'000'000;
+  for (const char head : {'\x7F', '\x5F', '\x9F', '\xBF', '\xC0', '\xD8'}) {
+    EXPECT_EQ(error_of(record_of(std::string(kDeep, head))), "is damaged: its content is not valid CBOR");
+  }
+}
+
+TEST(RecordFile, RefusesCborThatIsNotValid) {
+  const auto message = [](std::string_view payload) { return error_of(record_of(payload)).substr(0, 42); };
+  const std::string invalid = "is damaged: its content is not valid CBOR";
+  for (const std::string& payload : {""s, "\x82\1"s, "\1\1"s,
+                                     "\x63"
+                                     "ab"s,
+                                     "\x9B\xFF\xFF\xFF\xFF\xFF\xFF\xFF\xFF"s, "\xBB\x80\0\0\0\0\0\0\0\0"s,
+                                     "\x7B\xFF\xFF\xFF\xFF\xFF\xFF\xFF\xFF"s, "\x1C"s, "\x19\1"s, "\xFF"s}) {
+    EXPECT_EQ(message(payload), invalid);
+  }
+  // Well-formed, but not what JSON has: "undefined", and a map whose key is a number.
+  EXPECT_EQ(message("\xF7"), invalid + " ");
+  EXPECT_EQ(message("\xA1\1\1"), invalid + " ");
+}
+
+}  // namespace
+}  // namespace spincat

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "spincat/error.h"
@@ -15,6 +16,16 @@ SpinImageShape SpinImageParams::shape() const {
     return {1, w + 1, 2 * w + 1};
   }
   return {angle_test == AngleTest::soft ? 2U : 1U, w, w};
+}
+
+float SpinImageParams::least_cosine() const {
+  if (angle_test == AngleTest::soft || support_angle >= 180.0) {
+    return -std::numeric_limits<float>::infinity();
+  }
+  if (support_angle == 90.0) {
+    return 0.0F;  // the cosine of the rounded right angle is not
+  }
+  return static_cast<float>(std::cos(support_angle * std::numbers::pi / 180.0));
 }
 
 void SpinImageParams::validate() const {
@@ -31,8 +42,8 @@ void SpinImageParams::validate() const {
     throw InputError("the pcl convention knows only bilinear binning and the support angle's cutoff");
   }
   if (convention == SpinConvention::pcl && support_angle > 90.0) {
-    throw InputError(fmt::format("support angle {} is out of range (0 to 90 degrees in the pcl convention)",
-                                 support_angle));
+    throw InputError(
+        fmt::format("support angle {} is out of range (0 to 90 degrees in the pcl convention)", support_angle));
   }
 }
 

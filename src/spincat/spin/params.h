@@ -41,6 +41,9 @@ struct SpinImageParams {
   // D = W b: how far from the spin point's normal line a point may lie and still count.
   double support_distance() const { return image_width * bin_size; }
   SpinImageShape shape() const;
+  // cos A in single precision: the least n . m (johnson) or |n . m| (pcl) with which a point counts. Minus infinity and
+  // zero where no angle is left out; exactly zero at 90 degrees.
+  float least_cosine() const;
 
   // Throws InputError naming the field, its value and the allowed range. The pcl convention knows only bilinear
   // binning with the cutoff.

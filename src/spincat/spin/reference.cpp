@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 namespace spincat {
@@ -66,19 +65,16 @@ class Histogram {
   std::vector<double> sums_;
 };
 
-float cosine_of_degrees(double degrees) { return static_cast<float>(std::cos(degrees * std::numbers::pi / 180.0)); }
-
 void johnson_image(const OrientedPoints& surface, const OrientedPoints& spin_points, std::size_t k,
                    const SpinImageParams& params, std::span<float> image) {
   const auto width = static_cast<float>(params.image_width);
   const auto bins_per_unit = static_cast<float>(1.0 / params.bin_size);
   const bool soft = params.angle_test == AngleTest::soft;
-  const bool every_angle = soft || params.support_angle >= 180.0;
-  const float least_cosine = cosine_of_degrees(params.support_angle);
+  const float least_cosine = params.least_cosine();
   Histogram histogram(params.shape());
   for (std::size_t s = 0; s < surface.size(); ++s) {
     const SpinCoordinates at = spin_coordinates(surface, s, spin_points, k);
-    if (!every_angle && at.cosine < least_cosine) {
+    if (at.cosine < least_cosine) {
       continue;
     }
     const float row = 0.5F * width - at.beta * bins_per_unit;
@@ -105,7 +101,7 @@ void pcl_image(const OrientedPoints& surface, const OrientedPoints& spin_points,
                const SpinImageParams& params, std::span<float> image) {
   const auto width = static_cast<float>(params.image_width);
   const auto bins_per_unit = static_cast<float>(1.0 / params.bin_size);
-  const float least_cosine = params.support_angle >= 90.0 ? 0.0F : cosine_of_degrees(params.support_angle);
+  const float least_cosine = params.least_cosine();
   constexpr float kSamePoint = 10.0F * static_cast<float>(std::numeric_limits<double>::epsilon());
   Histogram histogram(params.shape());
   for (std::size_t s = 0; s < surface.size(); ++s) {

@@ -24,6 +24,7 @@ class SpinImages {
   const SpinImageShape& shape() const { return shape_; }
   std::span<float> image(std::size_t k) { return {values_.data() + k * shape_.size(), shape_.size()}; }
   std::span<const float> image(std::size_t k) const { return {values_.data() + k * shape_.size(), shape_.size()}; }
+  std::span<float> values() { return values_; }
   std::span<const float> values() const { return values_; }
 
  private:
@@ -44,13 +45,16 @@ using SpinImageConsumer = std::function<void(const SpinImageBlock&)>;
 // never depends on the number of threads or ranks.
 inline constexpr std::size_t kSpinImageBlock = 64;
 
-// Makes the image of every spin point from all surface points and hands them on in order, block by block; never more
-// than a few blocks are held. Deterministic. Precondition: params are valid. Source: paper, equations 1 and 2.
+// Makes the image of every spin point from all surface points, on `threads` threads (1 or more), and hands them on in
+// order, block by block, on the calling thread; never more than two blocks a thread are held. The same bytes for any
+// number of threads. What the consumer throws ends the work and arrives here.
+// Throws InputError when the environment variable SPINCAT_SIMD names no path of this machine (spin_image_maker.h).
+// Precondition: params are valid. Source: paper, equations 1 and 2.
 void make_spin_images(const OrientedPoints& surface, const OrientedPoints& spin_points, const SpinImageParams& params,
-                      const SpinImageConsumer& consume);
+                      const SpinImageConsumer& consume, int threads = 1);
 
 // The same, all images kept: for those who ask for the images themselves.
 SpinImages make_spin_images(const OrientedPoints& surface, const OrientedPoints& spin_points,
-                            const SpinImageParams& params);
+                            const SpinImageParams& params, int threads = 1);
 
 }  // namespace spincat

@@ -1,0 +1,162 @@
+#include "spincat/spin/spin_image_maker.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "spincat/geometry/aligned.h"
+#include "spincat/spin/in_order.h"
+#include "spincat/spin/kernel.h"
+#include "spincat/spin/support.h"
+#include "spincat/spin/surface_groups.h"
+
+namespace spincat {
+namespace {
+
+using Sums = std::vector<std::int64_t, AlignedAllocator<std::int64_t>>;
+using TileList = std::vector<std::uint32_t>;
+
+// Images under way at a time: kTilesAtOnce tiles of the surface stay in the second-level cache for all of them, and so
+// do their sums.
+constexpr std::size_t kMostImages = 16;
+constexpr std::size_t kSumsBytes = 384 * 1024;
+
+SpinPoint spin_point(const OrientedPoints& points, std::size_t k) {
+  return {points.x()[k], points.y()[k], points.z()[k], points.nx()[k], points.ny()[k], points.nz()[k]};
+}
+
+}  // namespace
+
+class SpinImageMaker::Engine {
+ public:
+  Engine(const OrientedPoints& surface, const SpinImageParams& params)
+      : shape_(params.shape()),
+        kernel_(spin_kernel()),
+        support_(params),
+        layout_(support_),
+        surface_(surface, support_) {}
+
+  const SpinImageShape& shape() const { return shape_; }
+  std::size_t tiles() const { return surface_.tiles(); }
+
+  void make(const OrientedPoints& spin_points, std::size_t first, std::span<float> images, std::size_t threads) const {
+    const std::vector<std::size_t> order = spatial_order(spin_points, first, images.size() / shape_.size());
+    const std::size_t at_once =
+        std::clamp<std::size_t>(kSumsBytes / (layout_.size * sizeof(std::int64_t)), 1, kMostImages);
+    Sums sums(std::min(at_once, order.size()) * layout_.size, 0);
+    for (std::size_t begin = 0; begin < order.size(); begin += at_once) {
+      const std::span group = std::span(order).subspan(begin, std::min(at_once, order.size() - begin));
+      const auto image = [&](std::size_t g) {
+        return images.subspan((group[g] - first) * shape_.size(), shape_.size());
+      };
+      if (threads > 1) {
+        sum_sharing(spin_points, group, threads, sums);
+      } else {
+        sum_tiles(spin_points, group, 0, tiles(), sums.data());
+      }
+      for (std::size_t g = 0; g < group.size(); ++g) {
+        kernel_.finish(support_, sums.data() + g * layout_.size, image(g));
+      }
+    }
+  }
+
+ private:
+  // Spin points that are neighbours see the same part of the surface: one after the other they find it in the cache.
+  std::vector<std::size_t> spatial_order(const OrientedPoints& spin_points, std::size_t first,
+                                         std::size_t count) const {
+    std::vector<std::uint32_t> keys(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const SpinPoint p = spin_point(spin_points, first + k);
+      keys[k] = surface_.curve_key(p.x, p.y, p.z);
+    }
+    std::vector<std::size_t> order(count);
+    std::iota(order.begin(), order.end(), first);
+    std::ranges::stable_sort(order, {}, [&](std::size_t k) { return keys[k - first]; });
+    return order;
+  }
+
+  // The surface passes through the cache in portions of about kTilesAtOnce tiles, each used for all images of a group:
+  // every portions()-th tile, so that its points fall into many different cells of an image.
+  std::size_t portions() const { return std::max<std::size_t>(tiles() / kTilesAtOnce, 1); }
+
+  // The tiles of [begin, end) that may lie in the support of `p`: rising if they are few, else portion by portion.
+  TileList seen_tiles(const SpinPoint& p, std::size_t begin, std::size_t end) const {
+    TileList list(tiles());
+    list.resize(kernel_.select_tiles(surface_, support_, p, list.data()));
+    std::erase_if(list, [&](std::uint32_t tile) { return tile < begin || tile >= end; });
+    if (list.size() > kTilesAtOnce) {
+      std::ranges::stable_sort(list, {}, [&](std::uint32_t tile) { return tile % portions(); });
+    }
+    return list;
+  }
+
+  // Adds what the tiles [begin, end) contribute to the images of `group`, to one set of sums an image.
+  void sum_tiles(const OrientedPoints& spin_points, std::span<const std::size_t> group, std::size_t begin,
+                 std::size_t end, std::int64_t* sums) const {
+    std::vector<TileList> seen(group.size());
+    std::vector<std::size_t> done(group.size(), 0);
+    for (std::size_t g = 0; g < group.size(); ++g) {
+      seen[g] = seen_tiles(spin_point(spin_points, group[g]), begin, end);
+    }
+    for (std::size_t portion = 0; portion < portions(); ++portion) {
+      for (std::size_t g = 0; g < group.size(); ++g) {
+        const std::span rest = std::span(seen[g]).subspan(done[g]);
+        const bool few = seen[g].size() <= kTilesAtOnce;
+        const auto end_of_portion =
+            few ? rest.end() : std::ranges::find_if(rest, [&](auto tile) { return tile % portions() != portion; });
+        sum_portion(spin_point(spin_points, group[g]), {rest.begin(), end_of_portion}, sums + g * layout_.size);
+        done[g] += static_cast<std::size_t>(end_of_portion - rest.begin());
+      }
+    }
+  }
+
+  void sum_portion(const SpinPoint& p, std::span<const std::uint32_t> tiles_of_it, std::int64_t* sums) const {
+    while (!tiles_of_it.empty()) {
+      const auto now = tiles_of_it.first(std::min(tiles_of_it.size(), kTilesAtOnce));
+      kernel_.accumulate(surface_, support_, p, now, sums);
+      tiles_of_it = tiles_of_it.subspan(now.size());
+    }
+  }
+
+  void sum_sharing(const OrientedPoints& spin_points, std::span<const std::size_t> group, std::size_t threads,
+                   Sums& sums) const {
+    const std::size_t slice = (tiles() + threads - 1) / threads;
+    const auto make_slice = [&](std::size_t step, std::size_t) {
+      Sums part(group.size() * layout_.size, 0);
+      sum_tiles(spin_points, group, std::min(step * slice, tiles()), std::min((step + 1) * slice, tiles()),
+                part.data());
+      return part;
+    };
+    const auto add = [&](std::size_t, Sums& part) {
+      std::transform(part.begin(), part.end(), sums.begin(), sums.begin(), std::plus<>());
+    };
+    InOrder<Sums>(threads, threads, make_slice, add);
+  }
+
+  SpinImageShape shape_;
+  const SpinKernel& kernel_;
+  Support support_;
+  CellLayout layout_;
+  SurfaceGroups surface_;
+};
+
+SpinImageMaker::SpinImageMaker(const OrientedPoints& surface, const SpinImageParams& params)
+    : engine_(std::make_unique<const Engine>(surface, params)) {}
+
+SpinImageMaker::~SpinImageMaker() = default;
+
+const SpinImageShape& SpinImageMaker::shape() const {
+  return engine_->shape();
+}
+
+void SpinImageMaker::make(const OrientedPoints& spin_points, std::size_t first, std::span<float> images,
+                          std::size_t threads) const {
+  engine_->make(spin_points, first, images, threads);
+}
+
+std::size_t SpinImageMaker::surface_pieces() const {
+  return engine_->tiles();
+}
+
+}  // namespace spincat

@@ -1,0 +1,217 @@
+#include "spincat/spin/surface_groups.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <span>
+
+namespace spincat {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+// Half edges are rounded up by more than their own rounding error.
+constexpr float kRoundUp = 1.0F + 1e-6F;
+
+std::size_t divided_up(std::size_t a, std::size_t b) {
+  return (a + b - 1) / b;
+}
+
+struct Interval {
+  float low = kInfinity;
+  float high = -kInfinity;
+};
+
+// The interval of the numbers among `values`. NaN positions lie in no support and need no bounds. In eight running
+// intervals, which a compiler turns into vectors.
+Interval interval_of(std::span<const float> values) {
+  std::array<float, 8> low;
+  std::array<float, 8> high;
+  low.fill(kInfinity);
+  high.fill(-kInfinity);
+  const auto widen = [&](std::size_t k, float v) {
+    low[k] = v < low[k] ? v : low[k];
+    high[k] = v > high[k] ? v : high[k];
+  };
+  const std::size_t whole = values.size() / 8 * 8;
+  for (std::size_t i = 0; i < whole; i += 8) {
+    for (std::size_t k = 0; k < 8; ++k) {
+      widen(k, values[i + k]);
+    }
+  }
+  for (std::size_t i = whole; i < values.size(); ++i) {
+    widen(i - whole, values[i]);
+  }
+  return {*std::ranges::min_element(low), *std::ranges::max_element(high)};
+}
+
+void set_interval(Bounds& bounds, std::size_t centre, std::size_t half, std::size_t k, const Interval& all) {
+  const float middle = 0.5F * all.low + 0.5F * all.high;
+  bounds.field[centre][k] = middle;
+  bounds.field[half][k] = std::max(all.high - middle, middle - all.low) * kRoundUp;
+}
+
+Interval get_interval(const Bounds& bounds, std::size_t centre, std::size_t half, std::size_t k) {
+  const float m = bounds.field[centre][k];
+  const float h = bounds.field[half][k] * kRoundUp;
+  return {m - h, m + h};
+}
+
+void set_radius(Bounds& bounds, std::size_t k) {
+  const auto half = [&](std::size_t axis) { return bounds.field[Bounds::kHalfX + axis][k]; };
+  bounds.field[Bounds::kRadius][k] = std::sqrt(half(0) * half(0) + half(1) * half(1) + half(2) * half(2)) * kRoundUp;
+}
+
+// Bounds of one group of points. A normal that is no number passes every angle test, so it bounds nothing.
+void bound_group(Bounds& bounds, std::size_t g, const float* points) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    set_interval(bounds, Bounds::kX + axis, Bounds::kHalfX + axis, g,
+                 interval_of({points + axis * kGroupPoints, kGroupPoints}));
+    const std::span normals(points + (3 + axis) * kGroupPoints, kGroupPoints);
+    const bool known = std::none_of(normals.begin(), normals.end(), [](float v) { return std::isnan(v); });
+    set_interval(bounds, Bounds::kNormalX + axis, Bounds::kNormalHalfX + axis, g,
+                 known ? interval_of(normals) : Interval{kNaN, kNaN});
+  }
+  set_radius(bounds, g);
+}
+
+// Bounds of a tile from those of its groups [first, last).
+void bound_tile(Bounds& bounds, std::size_t t, const Bounds& groups, std::size_t first, std::size_t last) {
+  constexpr std::array<std::array<std::size_t, 2>, 2> kBoxes = {
+      {{Bounds::kX, Bounds::kHalfX}, {Bounds::kNormalX, Bounds::kNormalHalfX}}};
+  for (const auto& [centre, half] : kBoxes) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      Interval all;
+      bool known = true;
+      for (std::size_t g = first; g < last; ++g) {
+        const Interval one = get_interval(groups, centre + axis, half + axis, g);
+        known = known && !std::isnan(one.low);
+        all = {std::min(all.low, one.low), std::max(all.high, one.high)};
+      }
+      set_interval(bounds, centre + axis, half + axis, t, known ? all : Interval{kNaN, kNaN});
+    }
+  }
+  set_radius(bounds, t);
+}
+
+// Every third bit of the result, from the lowest, is a bit of v (at most 10 bits).
+std::uint32_t spread_bits(std::uint32_t v) {
+  v = (v | (v << 16)) & 0x030000FFU;
+  v = (v | (v << 8)) & 0x0300F00FU;
+  v = (v | (v << 4)) & 0x030C30C3U;
+  v = (v | (v << 2)) & 0x09249249U;
+  return v;
+}
+
+}  // namespace
+
+Bounds::Bounds(std::size_t count) : size(count) {
+  for (AlignedFloats& values : field) {
+    values.assign(divided_up(count, 16) * 16, 0.0F);
+  }
+}
+
+SurfaceGroups::SurfaceGroups(const OrientedPoints& surface, const Support& support)
+    : points_(divided_up(surface.size(), kGroupPoints) * 6 * kGroupPoints, kNaN),
+      group_bounds_(divided_up(surface.size(), kGroupPoints)),
+      tile_bounds_(divided_up(group_bounds_.size, kTileGroups)) {
+  choose_cells(surface);
+  std::vector<std::uint32_t> order;
+  if (sees_everything(support)) {
+    order.resize(surface.size());
+    std::iota(order.begin(), order.end(), 0U);
+  } else {
+    order = curve_order(surface);
+  }
+  copy_points(surface, order);
+  for (std::size_t g = 0; g < groups(); ++g) {
+    bound_group(group_bounds_, g, group(g));
+  }
+  for (std::size_t t = 0; t < tiles(); ++t) {
+    bound_tile(tile_bounds_, t, group_bounds_, t * kTileGroups, std::min((t + 1) * kTileGroups, groups()));
+  }
+}
+
+// Cells of the curve: cubes, about one for every eight points that a surface (not a volume) puts into them.
+void SurfaceGroups::choose_cells(const OrientedPoints& surface) {
+  float edge = 0.0F;
+  const std::array<std::span<const float>, 3> axes = {surface.x(), surface.y(), surface.z()};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Interval all = interval_of(axes[axis]);
+    low_[axis] = all.low;
+    diagonal_ = std::hypot(diagonal_, all.high - all.low);
+    edge = std::max(edge, all.high - all.low);
+  }
+  while (bits_ < 8 && (std::size_t{1} << (2 * bits_)) * 16 < surface.size()) {
+    ++bits_;
+  }
+  cells_per_unit_ = edge > 0.0F ? static_cast<float>(1U << bits_) / edge : 0.0F;
+}
+
+// Whether hardly a group would be left out: no angle test, and a support as large as the surface (or so few points that
+// sorting them costs more than it saves).
+bool SurfaceGroups::sees_everything(const Support& support) const {
+  const float reach = std::min(support.most_beta, std::sqrt(std::max(0.0F, support.most_alpha2)));
+  return !support.tests_angle && (reach >= 0.5F * diagonal_ || points_.size() <= 6 * kGroupPoints * kTileGroups);
+}
+
+std::uint32_t SurfaceGroups::curve_key(float x, float y, float z) const {
+  const auto last = static_cast<float>((1U << bits_) - 1U);
+  // A position that is no number goes to the first cell, one that is outside to the nearest.
+  const auto cell = [&](float v, std::size_t axis) {
+    const float c = (v - low_[axis]) * cells_per_unit_;
+    const float inside = c > 0.0F ? c : 0.0F;
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(inside < last ? inside : last));
+  };
+  return spread_bits(cell(x, 0)) | (spread_bits(cell(y, 1)) << 1) | (spread_bits(cell(z, 2)) << 2);
+}
+
+// Radix sort by the key, from the lowest digit up: stable, so the order is a function of the surface alone.
+std::vector<std::uint32_t> SurfaceGroups::curve_order(const OrientedPoints& surface) const {
+  struct Keyed {
+    std::uint32_t key;
+    std::uint32_t point;
+  };
+  constexpr unsigned kDigit = 9;  // bits
+  constexpr std::uint32_t kMask = (1U << kDigit) - 1U;
+  std::vector<Keyed> sorted(surface.size());
+  for (std::uint32_t i = 0; i < sorted.size(); ++i) {
+    sorted[i] = {curve_key(surface.x()[i], surface.y()[i], surface.z()[i]), i};
+  }
+  std::vector<Keyed> other(sorted.size());
+  for (unsigned shift = 0; shift < 3 * bits_; shift += kDigit) {
+    std::array<std::uint32_t, kMask + 2> place{};
+    for (const Keyed& it : sorted) {
+      ++place[((it.key >> shift) & kMask) + 1];
+    }
+    std::partial_sum(place.begin(), place.end(), place.begin());
+    for (const Keyed& it : sorted) {
+      other[place[(it.key >> shift) & kMask]++] = it;
+    }
+    sorted.swap(other);
+  }
+  std::vector<std::uint32_t> order(sorted.size());
+  std::ranges::transform(sorted, order.begin(), &Keyed::point);
+  return order;
+}
+
+void SurfaceGroups::copy_points(const OrientedPoints& surface, const std::vector<std::uint32_t>& order) {
+  const std::array<std::span<const float>, 6> arrays = {surface.x(),  surface.y(),  surface.z(),
+                                                        surface.nx(), surface.ny(), surface.nz()};
+  for (std::size_t first = 0; first < order.size(); first += kGroupPoints) {
+    float* group = points_.data() + 6 * first;
+    const std::size_t count = std::min(kGroupPoints, order.size() - first);
+    for (std::size_t k = 0; k < 6; ++k) {
+      for (std::size_t i = 0; i < count; ++i) {
+        group[k * kGroupPoints + i] = arrays[k][order[first + i]];
+      }
+    }
+    // Places left over repeat the last normal, so that they widen no bound; their NaN positions stay.
+    for (std::size_t k = 3; k < 6; ++k) {
+      std::fill_n(group + k * kGroupPoints + count, kGroupPoints - count, group[k * kGroupPoints + count - 1]);
+    }
+  }
+}
+
+}  // namespace spincat

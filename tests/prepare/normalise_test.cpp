@@ -53,7 +53,7 @@ TEST(UnitSimilarity, KeepsASmallShapeFarFromTheOrigin) {
 
 TEST(UnitSimilarity, RefusesWhatHasNoExtent) {
   EXPECT_EQ(input_error([] { unit_similarity({}); }), "holds no points");
-  EXPECT_EQ(input_error([] { unit_similarity(Points{{1, 2, 3}}); }), "holds only one point");
+  EXPECT_EQ(input_error([] { unit_similarity(Points{{1, 2, 3}}); }), "all its points are at one place");
   EXPECT_EQ(input_error([] { unit_similarity(Points(7, Vec3(1e30, 2, 3))); }), "all its points are at one place");
 }
 

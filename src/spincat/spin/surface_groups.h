@@ -1,4 +1,4 @@
-// A surface cut into small groups of neighbouring points with known bounds, so that a kernel can pass over those that a
+// Private to spin. A surface cut into small groups of neighbouring points with known bounds, so that a kernel can pass over those that a
 // spin image cannot see. Private to spin.
 #pragma once
 

@@ -259,7 +259,7 @@ TEST(Train, LeavesOutObjectsWithFewerConcatenatedImages) {
   Dataset dataset = shapes();
   const TempDir dir;
   const auto small = dir.write("small.xyz.off", "OFF 4 0 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n");
-  for (const std::ptrdiff_t at : {0, 10, 25}) {
+  for (const std::ptrdiff_t at : {0, 10, 26}) {
     dataset.objects.insert(dataset.objects.begin() + at, {small, 1, ""});
   }
   const TrainResult result = train(dataset, settings, {});

@@ -9,6 +9,10 @@ install(DIRECTORY src/spincat/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/spincat
         PATTERN "record_file.h" EXCLUDE
         PATTERN "settings_json.h" EXCLUDE
         PATTERN "point_tree.h" EXCLUDE
+        PATTERN "kernel.h" EXCLUDE
+        PATTERN "support.h" EXCLUDE
+        PATTERN "surface_groups.h" EXCLUDE
+        PATTERN "in_order.h" EXCLUDE
         PATTERN "unit_length.h" EXCLUDE)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/spincat)

@@ -4,6 +4,7 @@
 packages_build=(
   g++ cmake ninja-build
   libeigen3-dev        # linear algebra, Gram matrices
+  libhwy-dev           # SIMD with a choice of path at run time
   libnanoflann-dev     # nearest neighbours
   libsvm-dev           # the solver of the judges' SVMs
   libtinygltf-dev      # glTF and GLB files

@@ -292,7 +292,7 @@ TEST_F(Command, CtrlCLeavesTheOldModelAndNothingElse) {
   });
   const std::string line = fmt::format(
       "cd '{}' && sh -c 'echo $$ > shapes/pid; exec \"{}\" train shapes -o x.spincat --copies 100 "
-      "--points 200000' 2>.err",
+      "--points 20000' 2>.err",
       dir_.path().string(), SPINCAT_COMMAND);
   const int status = std::system(line.c_str());
   interrupter.join();

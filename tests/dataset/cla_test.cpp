@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "dataset_lines.h"
-#include "expect_error.h"
+#include "support/expect_error.h"
 #include "spincat/dataset/listing.h"
 #include "support/temp_dir.h"
 

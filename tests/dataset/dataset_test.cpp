@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "dataset_lines.h"
-#include "expect_error.h"
+#include "support/expect_error.h"
 #include "support/temp_dir.h"
 
 namespace spincat {

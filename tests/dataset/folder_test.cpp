@@ -3,7 +3,7 @@
 #include <unistd.h>
 
 #include "dataset_lines.h"
-#include "expect_error.h"
+#include "support/expect_error.h"
 #include "spincat/dataset/dataset.h"
 #include "support/temp_dir.h"
 

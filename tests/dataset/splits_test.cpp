@@ -8,7 +8,7 @@
 #include <map>
 #include <numeric>
 
-#include "expect_error.h"
+#include "support/expect_error.h"
 
 namespace spincat {
 

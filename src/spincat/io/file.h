@@ -12,7 +12,8 @@ std::string read_file(const std::filesystem::path& file);
 
 // Writes `bytes` to a temporary file in the same folder, flushes it to the disk and renames it to `file`, so that
 // `file` holds either what it held before or everything. A symbolic link is followed; /dev/stdout and pipes are written
-// straight. The temporary file is removed on failure.
+// straight. An existing file keeps its permissions, and one that is write-protected is not replaced. The temporary file
+// is removed on failure.
 // Throws InputError when the folder does not exist or `file` is a folder, RunError when writing fails (disk full, ...).
 void write_file_atomically(const std::filesystem::path& file, std::string_view bytes);
 

@@ -298,8 +298,8 @@ class PlyReader {
 
   std::uint64_t list_length(const Property& property) {
     const double length = body_.next(*property.length_type);
-    const auto most = static_cast<double>(body_.bytes_left() / Body::least_size(property.type));
-    if (!(length >= 0 && length <= most) || length != std::floor(length))
+    const std::uint64_t most = body_.bytes_left() / Body::least_size(property.type);
+    if (!(length >= 0 && length <= static_cast<double>(most)) || length != std::floor(length))
       body_.fail(fmt::format("a list of {} values does not fit into the rest of the file", length));
     return static_cast<std::uint64_t>(length);
   }

@@ -82,7 +82,7 @@ class TextStlReader {
 };
 
 Vec3 corner_at(const char* at, std::uint64_t triangle) {
-  const Vec3 corner(load<float>(at), load<float>(at + 4), load<float>(at + 8));
+  Vec3 corner(load<float>(at), load<float>(at + 4), load<float>(at + 8));
   if (!corner.allFinite()) throw InputError(fmt::format("triangle {}: a coordinate is not finite", triangle));
   return corner;
 }

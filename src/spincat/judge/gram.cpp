@@ -20,6 +20,9 @@ void fill_tile(const FeatureMatrix& features, Eigen::Index i, Eigen::Index j, Ei
     const Eigen::Index depth = std::min(kDepth, features.cols() - d);
     tile.noalias() += features.block(i, d, rows, depth) * features.block(j, d, columns, depth).transpose();
   }
+  if (i == j) {  // a product's last bit may depend on its place in the tile
+    tile.triangularView<Eigen::StrictlyUpper>() = tile.transpose().eval();
+  }
   gram.block(i, j, rows, columns) = tile;
   gram.block(j, i, columns, rows) = tile.transpose();
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <exception>
 #include <mutex>
 
@@ -22,27 +23,25 @@ int thread_count(int requested) {
 
 void for_each_index(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {
   std::mutex mutex;
-  std::exception_ptr first_error;
-  std::size_t first_index = count;
-  std::atomic<bool> failed = false;
+  std::exception_ptr error;
+  std::atomic<std::size_t> failed_index = count;  // the smallest so far
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
   for (std::size_t i = 0; i < count; ++i) {
-    if (failed) {
+    if (i > failed_index) {  // those below still run: one of them may fail, too
       continue;
     }
     try {
       body(i);
     } catch (...) {
       const std::lock_guard lock(mutex);
-      failed = true;
-      if (i < first_index) {
-        first_index = i;
-        first_error = std::current_exception();
+      if (i < failed_index) {
+        failed_index = i;
+        error = std::current_exception();
       }
     }
   }
-  if (first_error) {
-    std::rethrow_exception(first_error);
+  if (error) {
+    std::rethrow_exception(error);
   }
 }
 

@@ -21,6 +21,9 @@ void check(const EvaluateOptions& options) {
   if (options.splits < 1 || options.splits > 10'000) {
     throw InputError(fmt::format("number of splits {} is out of range (1 to 10000)", options.splits));
   }
+  if (!(options.test_fraction > 0.0 && options.test_fraction < 1.0)) {
+    throw InputError(fmt::format("test fraction {} is out of range (between 0 and 1)", options.test_fraction));
+  }
 }
 
 Confusion judge_split(const FeatureTable& table, const Eigen::MatrixXf& gram, const Split& split,

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <mutex>
-#include <optional>
 #include <utility>
 
 #include "spincat/error.h"
@@ -23,7 +23,9 @@ struct Described {
   StageSeconds seconds;
 };
 
-Described describe_object(const DatasetObject& entry, const Settings& settings, bool strict) {
+// `between_copies` is called after each copy: an interruption need not wait for all copies of a dense scan.
+Described describe_object(const DatasetObject& entry, const Settings& settings, bool strict,
+                          const std::function<void()>& between_copies) {
   Described result;
   try {
     Stopwatch watch;
@@ -31,6 +33,7 @@ Described describe_object(const DatasetObject& entry, const Settings& settings, 
     result.seconds.read = watch.lap();
     for (int copy = 0; copy <= settings.copies; ++copy) {
       result.features.push_back(describe(object, settings, copy, &result.seconds));
+      between_copies();
     }
   } catch (const InputError& error) {
     if (strict) {
@@ -42,19 +45,49 @@ Described describe_object(const DatasetObject& entry, const Settings& settings, 
   return result;
 }
 
+// Concatenated images are as many as the spin points: an object with fewer points than the others (a small cloud whose
+// points are not repeated) cannot be compared with them.
+void leave_out_shorter(const Dataset& dataset, bool strict, std::vector<Described>& described) {
+  std::size_t length = 0;
+  for (const Described& object : described) {
+    for (const FeatureVector& features : object.features) {
+      length = std::max(length, features.values.size());
+    }
+  }
+  for (std::size_t i = 0; i < described.size(); ++i) {
+    const auto shorter = std::ranges::find_if(
+        described[i].features, [&](const FeatureVector& features) { return features.values.size() != length; });
+    if (shorter == described[i].features.end()) {
+      continue;
+    }
+    described[i].problem = fmt::format("gives {} features where others give {}", shorter->values.size(), length);
+    described[i].features.clear();
+    if (strict) {
+      throw InputError(dataset.objects[i].file.string(), described[i].problem);
+    }
+  }
+}
+
 // Throws when the objects that are left can teach nothing.
 void check_categories(const FeatureTable& table, const std::string& dataset) {
+  if (table.categories.size() < 2) {
+    throw InputError(dataset, fmt::format("has {} categories, expected at least 2", table.categories.size()));
+  }
   std::vector<bool> present(table.categories.size(), false);
   for (const DatasetObject& object : table.objects) {
     present[object.category] = true;
   }
-  const auto left = std::ranges::count(present, true);
-  if (left < 2 || left < static_cast<std::ptrdiff_t>(present.size())) {
-    const auto missing = static_cast<std::size_t>(std::ranges::find(present, false) - present.begin());
-    throw InputError(dataset, fmt::format("no object of category '{}' could be read ({} could not; the first, {}: {})",
-                                          table.categories[missing], table.skipped.size(),
-                                          table.skipped.front().file.string(), table.skipped.front().reason));
+  const auto missing = std::ranges::find(present, false);
+  if (missing == present.end()) {
+    return;
   }
+  std::string problem = fmt::format("no object of category '{}' could be read",
+                                    table.categories[static_cast<std::size_t>(missing - present.begin())]);
+  if (!table.skipped.empty()) {
+    problem += fmt::format(" ({} could not; the first, {}: {})", table.skipped.size(),
+                           table.skipped.front().file.string(), table.skipped.front().reason);
+  }
+  throw InputError(dataset, problem);
 }
 
 // Moves all described objects into one table, in the order of the data set.
@@ -128,14 +161,18 @@ FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, 
   std::vector<Described> described(dataset.objects.size());
   std::mutex mutex;
   std::size_t done = 0;
-  for_each_index(dataset.objects.size(), threads, [&](std::size_t i) {
-    described[i] = describe_object(dataset.objects[i], settings, strict);
+  const auto report = [&](std::size_t newly_done) {
     const std::lock_guard lock(mutex);
-    ++done;
+    done += newly_done;
     if (progress) {
       progress("describing objects", done, dataset.objects.size());
     }
+  };
+  for_each_index(dataset.objects.size(), threads, [&](std::size_t i) {
+    described[i] = describe_object(dataset.objects[i], settings, strict, [&] { report(0); });
+    report(1);
   });
+  leave_out_shorter(dataset, strict, described);
   FeatureTable table = collect(dataset, std::move(described), settings);
   check_categories(table, dataset.name);
   return table;

@@ -16,6 +16,7 @@
 #include "spincat/io/record_file.h"
 #include "spincat/pipeline/model.h"
 #include "spincat/pipeline/settings_json.h"
+#include "spincat/pipeline/whole_number.h"
 
 // Numbers are kept as the machine has them; spincat is built for little-endian machines only.
 static_assert(std::endian::native == std::endian::little);
@@ -70,6 +71,23 @@ T value(const Json& json, const char* name) {
   }
 }
 
+// A count for each judge or category.
+std::vector<std::uint32_t> counts(const Json& json, const char* name, std::size_t size) {
+  const Json& list = member(json, name);
+  std::vector<std::uint32_t> result;
+  if (list.is_array() && list.size() == size) {
+    for (const Json& element : list) {
+      if (const auto count = whole_number<std::uint32_t>(element)) {
+        result.push_back(*count);
+      }
+    }
+  }
+  if (result.size() != size) {
+    throw InputError(fmt::format("model: '{}' does not hold {} counts", name, size));
+  }
+  return result;
+}
+
 Json judges_to_json(const JudgeList& judges) {
   return {{"features", judges.weights.cols()},
           {"weights", pack_floats({judges.weights.data(), static_cast<std::size_t>(judges.weights.size())})},
@@ -79,9 +97,9 @@ Json judges_to_json(const JudgeList& judges) {
 
 JudgeList judges_from_json(const Json& json, std::size_t categories) {
   const std::size_t count = categories * (categories - 1) / 2;
-  const auto features = value<std::size_t>(json, "features");
+  const std::size_t features = whole_number<std::size_t>(member(json, "features")).value_or(0);
   if (features == 0 || features > kMostFeatures) {
-    throw InputError(fmt::format("model: number of features {} is out of range", features));
+    throw InputError(fmt::format("model: 'features' is not a whole number from 1 to {}", kMostFeatures));
   }
   // The blob's size is checked against both counts before any memory is taken for them.
   const Json& weights = member(json, "weights");
@@ -94,10 +112,7 @@ JudgeList judges_from_json(const Json& json, std::size_t categories) {
   judges.bias.resize(static_cast<Eigen::Index>(count));
   unpack_floats(json, "weights", {judges.weights.data(), count * features});
   unpack_floats(json, "bias", {judges.bias.data(), count});
-  judges.support_vectors = value<std::vector<std::uint32_t>>(json, "support_vectors");
-  if (judges.support_vectors.size() != count) {
-    throw InputError("model: 'support_vectors' does not have one number for each judge");
-  }
+  judges.support_vectors = counts(json, "support_vectors", count);
   return judges;
 }
 
@@ -117,10 +132,7 @@ Model model_from_json(const Json& json) {
   }
   model.dataset = value<std::string>(json, "dataset");
   model.made_by = value<std::string>(json, "made_by");
-  model.object_counts = value<std::vector<std::uint32_t>>(json, "object_counts");
-  if (model.object_counts.size() != n) {
-    throw InputError("model: 'object_counts' does not have one number for each category");
-  }
+  model.object_counts = counts(json, "object_counts", n);
   return model;
 }
 

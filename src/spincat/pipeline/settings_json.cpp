@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <string>
 
 #include "spincat/error.h"
 #include "spincat/pipeline/setting_names.h"
+#include "spincat/pipeline/whole_number.h"
 
 namespace spincat {
 namespace {
@@ -32,10 +34,11 @@ T whole(const Json& json, const char* name) {
   if (at == json.end()) {
     throw InputError(fmt::format("setting '{}' is missing", name));
   }
-  if (!at->is_number_integer() || *at != Json(at->get<T>())) {
+  const std::optional<T> number = whole_number<T>(*at);
+  if (!number) {
     throw InputError(fmt::format("setting '{}' is not a whole number in range", name));
   }
-  return at->get<T>();
+  return *number;
 }
 
 template <class Choice>

@@ -88,6 +88,88 @@ class Camera {
   Eigen::Matrix3d axes_;
 };
 
+// A run of pixels in a row; empty when last < first.
+struct Columns {
+  int first;
+  int last;
+};
+
+// The weights of a projected triangle's corners at points of the image: all at least zero inside and on its edge. They
+// are linear, and so is one over the depth.
+class Weights {
+ public:
+  Weights(const Vec3& a, const Vec3& b, const Vec3& c, double scale)
+      : a_(a),
+        ab_(b - a),
+        ac_(c - a),
+        scale_(scale),
+        step_b_(ac_.y() * scale),
+        step_c_(-ab_.y() * scale),
+        depth_step_(step_b_ * ab_.z() + step_c_ * ac_.z()) {}
+
+  // The pixels of a row, among `columns`, whose centres are not outside.
+  Columns inside(double y, Columns columns) const {
+    constexpr int kFew = 6;  // that are tested faster than the crossings are computed
+    if (columns.last - columns.first > kFew) {
+      narrow(y, columns);
+    }
+    while (columns.first <= columns.last && !is_inside(columns.first + 0.5, y)) {
+      ++columns.first;
+    }
+    while (columns.first < columns.last && !is_inside(columns.last + 0.5, y)) {
+      --columns.last;
+    }
+    return columns;
+  }
+
+  double inverse_depth(double x, double y) const { return a_.z() + b(x, y) * ab_.z() + c(x, y) * ac_.z(); }
+  double depth_step() const { return depth_step_; }  // from one column to the next
+
+ private:
+  double b(double x, double y) const { return ((x - a_.x()) * ac_.y() - (y - a_.y()) * ac_.x()) * scale_; }
+  double c(double x, double y) const { return (ab_.x() * (y - a_.y()) - ab_.y() * (x - a_.x())) * scale_; }
+
+  bool is_inside(double x, double y) const {
+    const double wb = b(x, y);
+    const double wc = c(x, y);
+    return 1.0 - wb - wc >= 0.0 && wb >= 0.0 && wc >= 0.0;
+  }
+
+  // Leaves out columns that are more than a pixel outside, so that rounding decides about none: a long thin triangle
+  // costs its length, not its bounding box.
+  void narrow(double y, Columns& columns) const {
+    const double x = columns.first + 0.5;
+    const double wb = b(x, y);
+    const double wc = c(x, y);
+    const int first = columns.first;
+    cut(wb, step_b_, first, columns);
+    cut(wc, step_c_, first, columns);
+    cut(1.0 - wb - wc, -step_b_ - step_c_, first, columns);
+  }
+
+  // The same for one weight that is `weight` at column `first` and changes by `step` a column.
+  static void cut(double weight, double step, int first, Columns& columns) {
+    if (step == 0.0) {
+      return;
+    }
+    const double to_zero = std::clamp(-weight / step, -2.0, 2.0 * kPixels);
+    const int at = first + static_cast<int>(to_zero);
+    if (step > 0.0) {
+      columns.first = std::max(columns.first, at - 2);
+    } else {
+      columns.last = std::min(columns.last, at + 2);
+    }
+  }
+
+  Vec3 a_;
+  Vec3 ab_;
+  Vec3 ac_;
+  double scale_;
+  double step_b_;
+  double step_c_;
+  double depth_step_;
+};
+
 // What a camera sees: at each pixel the nearest face and one over its depth.
 class DepthBuffer {
  public:
@@ -111,32 +193,12 @@ class DepthBuffer {
     if (twice_area == 0.0) {
       return;
     }
-    const double scale = 1.0 / twice_area;  // its sign makes either winding's weights positive inside
-    // Along a row each corner's weight changes by a fixed step a column.
-    const double step_b = (c.y() - a.y()) * scale;
-    const double step_c = -(b.y() - a.y()) * scale;
-    const Crossing crossing_b(step_b);
-    const Crossing crossing_c(step_c);
-    const Crossing crossing_a(-step_b - step_c);
+    const Weights weights(a, b, c, 1.0 / twice_area);  // the area's sign makes those of either winding positive inside
     for (int row = first_row; row <= last_row; ++row) {
-      const double y = row + 0.5;
-      const double along_b = (y - a.y()) * (c.x() - a.x());
-      const double along_c = (b.x() - a.x()) * (y - a.y());
-      const auto weight_b = [&](double x) { return ((x - a.x()) * (c.y() - a.y()) - along_b) * scale; };
-      const auto weight_c = [&](double x) { return (along_c - (b.y() - a.y()) * (x - a.x())) * scale; };
-      Columns columns{first_column, last_column};
-      const double x0 = first_column + 0.5;
-      crossing_b.narrow(weight_b(x0), first_column, columns);
-      crossing_c.narrow(weight_c(x0), first_column, columns);
-      crossing_a.narrow(1.0 - weight_b(x0) - weight_c(x0), first_column, columns);
-      for (int column = columns.first; column <= columns.last; ++column) {
-        const double x = column + 0.5;
-        const double wb = weight_b(x);
-        const double wc = weight_c(x);
-        const double wa = 1.0 - wb - wc;
-        if (wa >= 0.0 && wb >= 0.0 && wc >= 0.0) {
-          keep_nearest(face, row * kPixels + column, wa * a.z() + wb * b.z() + wc * c.z());
-        }
+      const Columns inside = weights.inside(row + 0.5, {first_column, last_column});
+      const double nearest = weights.inverse_depth(inside.first + 0.5, row + 0.5);
+      for (int column = inside.first; column <= inside.last; ++column) {
+        keep_nearest(face, row * kPixels + column, nearest + (column - inside.first) * weights.depth_step());
       }
     }
   }
@@ -145,38 +207,6 @@ class DepthBuffer {
   double inverse_depth(int pixel) const { return inverse_depth_[pixel]; }
 
  private:
-  struct Columns {
-    int first;
-    int last;
-  };
-
-  // Where along a row a weight that changes by `step` a column turns negative. Only leaves out what is more than a
-  // pixel outside, so that rounding decides about no pixel: long thin triangles cost their length, not their bounding
-  // box.
-  class Crossing {
-   public:
-    explicit Crossing(double step) : rising_(step > 0.0), flat_(step == 0.0), inverse_(flat_ ? 0.0 : 1.0 / step) {}
-
-    void narrow(double weight_at_first, int first, Columns& columns) const {
-      // Far away crossings are cut to the image before they become integers; one that is no number narrows nothing.
-      const double to_zero = std::clamp(-weight_at_first * inverse_, -2.0, 2.0 * kPixels);
-      if (flat_ || !(std::abs(to_zero) <= 2.0 * kPixels)) {
-        return;
-      }
-      const int at = first + static_cast<int>(to_zero);
-      if (rising_) {
-        columns.first = std::max(columns.first, at - 2);
-      } else {
-        columns.last = std::min(columns.last, at + 2);
-      }
-    }
-
-   private:
-    bool rising_;
-    bool flat_;
-    double inverse_;
-  };
-
   // The range of pixels whose centres lie between two image coordinates, cut to the image.
   static int first_pixel(double low) { return std::max(0, static_cast<int>(std::ceil(low - 0.5))); }
   static int last_pixel(double high) { return std::min(kPixels - 1, static_cast<int>(std::floor(high - 0.5))); }

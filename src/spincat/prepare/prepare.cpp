@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -52,29 +53,28 @@ void shuffle_points(SurfacePoints& points, Random& random) {
 // `mesh` is normalised and has area.
 SurfacePoints mesh_points(const Mesh& mesh, const PrepareSettings& settings, Random& random) {
   const auto count = static_cast<std::size_t>(settings.points);
-  if (settings.surface == SurfaceKind::vertices) {
-    return {mesh.vertices, vertex_normals(mesh)};
-  }
   if (settings.surface == SurfaceKind::external) {
     const SurfacePoints seen = external_surface(mesh, random);
     if (seen.positions.size() >= kFewestExternalPoints) {
       return even_out(seen, count, random);
     }
   }
-  SurfacePoints samples = surface_samples(mesh, count, random);
+  SurfacePoints points = settings.surface == SurfaceKind::vertices
+                             ? SurfacePoints{mesh.vertices, vertex_normals(mesh)}
+                             : surface_samples(mesh, count, random);
   if (settings.orientation == NormalOrientation::outward) {
-    orient_outwards(samples.positions, samples.normals);
+    orient_outwards(points.positions, points.normals);
   }
-  return samples;
+  return points;
 }
 
 // The given normals where they are known, else estimated from the neighbours and oriented.
 std::vector<Vec3> cloud_normals(const PointCloud& cloud, const PrepareSettings& settings) {
-  const auto known = [](const Vec3& n) { return n.allFinite() && n.squaredNorm() > 0.0; };
+  const auto known = [](const Vec3& n) { return n.allFinite() && !n.isZero(0.0); };
   if (!cloud.normals.empty() && std::ranges::all_of(cloud.normals, known)) {
     std::vector<Vec3> given = cloud.normals;
     for (Vec3& n : given) {
-      n.normalize();
+      n.stableNormalize();
     }
     return given;
   }
@@ -105,9 +105,8 @@ PointCloud without_repeats(const PointCloud& cloud) {
 }
 
 Surface cloud_surface(const PointCloud& given, const PrepareSettings& settings, Random& random) {
-  PointCloud cloud = without_repeats(given);
-  const Similarity similarity = unit_similarity(cloud.points);
-  cloud = transformed(cloud, similarity);
+  const Similarity similarity = unit_similarity(given.points);
+  const PointCloud cloud = transformed(without_repeats(given), similarity);
   SurfacePoints points{cloud.points, cloud_normals(cloud, settings)};
   if (settings.surface != SurfaceKind::vertices) {
     points = even_out(points, static_cast<std::size_t>(settings.points), random);
@@ -115,11 +114,15 @@ Surface cloud_surface(const PointCloud& given, const PrepareSettings& settings, 
   return {std::move(points), similarity.factor, cloud_resolution(cloud.points)};
 }
 
+bool all_at_one_place(std::span<const Vec3> points) {
+  return std::ranges::all_of(points, [&](const Vec3& p) { return p == points[0]; });
+}
+
 Surface mesh_surface(const Mesh& given, const PrepareSettings& settings, Random& random) {
-  if (given.triangles.empty()) {
+  Mesh mesh = without_unused_vertices(given);
+  if (all_at_one_place(mesh.vertices)) {
     return cloud_surface({given.vertices, {}, {}}, settings, random);
   }
-  Mesh mesh = without_unused_vertices(given);
   const Similarity similarity = unit_similarity(mesh.vertices);
   mesh = transformed(mesh, similarity);
   if (!has_area(mesh)) {

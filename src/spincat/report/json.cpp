@@ -1,6 +1,7 @@
 #include "spincat/report/json.h"
 
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "spincat/pipeline/settings_json.h"
 
@@ -29,13 +30,21 @@ Json skipped_objects(const std::vector<SkippedObject>& skipped) {
   return list;
 }
 
+Json by_category(const std::vector<std::string>& categories, const std::vector<std::uint32_t>& counts) {
+  Json json = Json::object();
+  for (std::size_t c = 0; c < categories.size(); ++c) {
+    json[categories[c]] = counts[c];
+  }
+  return json;
+}
+
 Json model_facts(const std::string& file, const Model& model) {
   return {{"file", file},
           {"kind", "model"},
           {"made_by", model.made_by},
           {"dataset", model.dataset},
           {"categories", model.categories},
-          {"object_counts", model.object_counts},
+          {"object_counts", by_category(model.categories, model.object_counts)},
           {"features", model.feature_length()},
           {"judges", model.judges.size()},
           {"settings", settings_to_json(model.settings)}};
@@ -47,14 +56,10 @@ std::string classification_json(const std::string& file, const Classification& c
                                 bool every_judge) {
   const Ballot& ballot = classification.ballot;
   const StageSeconds& s = classification.seconds;
-  Json votes = Json::object();
-  for (std::size_t c = 0; c < model.categories.size(); ++c) {
-    votes[model.categories[c]] = ballot.count[c];
-  }
   Json json = {{"file", file},
                {"category", model.categories[ballot.winner]},
                {"confidence", classification.confidence},
-               {"votes", votes},
+               {"votes", by_category(model.categories, ballot.count)},
                {"milliseconds", 1e3 * (s.read + s.prepare + s.spin + s.encode + s.judge)}};
   if (every_judge) {
     Json judges = Json::array();
@@ -74,12 +79,7 @@ std::string error_json(const std::string& file, const std::string& error) {
 }
 
 std::string evaluation_json(const Evaluation& e, const Settings& settings) {
-  std::size_t objects = 0;
-  Json counts = Json::object();
-  for (std::size_t c = 0; c < e.categories.size(); ++c) {
-    objects += e.object_counts[c];
-    counts[e.categories[c]] = e.object_counts[c];
-  }
+  const std::size_t objects = std::accumulate(e.object_counts.begin(), e.object_counts.end(), std::size_t{0});
   return line({{"dataset", e.dataset},
                {"objects", objects},
                {"categories", e.categories},
@@ -90,7 +90,7 @@ std::string evaluation_json(const Evaluation& e, const Settings& settings) {
                {"overall_rate_std", e.overall_rate.deviation},
                {"confusion", e.confusion},
                {"seconds", e.wall_seconds},
-               {"object_counts", counts},
+               {"object_counts", by_category(e.categories, e.object_counts)},
                {"stage_seconds", stage_seconds(e.seconds)},
                {"settings", settings_to_json(settings)},
                {"skipped", skipped_objects(e.skipped)}});

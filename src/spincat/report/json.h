@@ -22,16 +22,17 @@ std::string classification_json(const std::string& file, const Classification& c
 std::string error_json(const std::string& file, const std::string& error);
 
 // {"dataset", "objects", "categories", "splits", "mean_class_rate", "mean_class_rate_std", "overall_rate",
-//  "overall_rate_std", "confusion", "seconds", "object_counts", "stage_seconds", "settings", "skipped"}
+//  "overall_rate_std", "confusion", "seconds", "object_counts": {category: n}, "stage_seconds", "settings", "skipped"}
 std::string evaluation_json(const Evaluation& evaluation, const Settings& settings);
 
-// {"file", "kind": "model", "made_by", "dataset", "categories", "object_counts", "features", "judges", "settings"}
+// {"file", "kind": "model", "made_by", "dataset", "categories", "object_counts": {category: n}, "features", "judges",
+//  "settings"}
 std::string model_json(const std::string& file, const Model& model);
 
 // {"file", "kind": "mesh" or "point cloud", "points", "triangles", "size", "area", "resolution", "defects": {name: n}}
 std::string object_json(const std::string& file, const ObjectFacts& facts);
 
-// As model_json, and "skipped": [{"file", "error"}], "stage_seconds"
+// As model_json, and "stage_seconds", "skipped": [{"file", "error"}]
 std::string training_json(const std::string& file, const TrainResult& result);
 
 }  // namespace spincat

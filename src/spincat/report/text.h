@@ -18,7 +18,8 @@ std::string human_seconds(double seconds);
 // the matrix would be wider than `width` columns, the rate of each category and the most confused pairs instead.
 std::string evaluation_text(const Evaluation& evaluation, std::size_t width);
 
-// Every judge's word on one object, strongest first: "chair  against couch  0.84", and the count of votes.
+// Every judge's word on one object: "chair  not couch  0.84", those for the winner first, then by strength; and, where
+// there was a tie, how it was broken.
 std::string ballot_text(const Ballot& ballot, const std::vector<std::string>& categories);
 
 // What a model holds.

@@ -24,6 +24,25 @@ std::string_view last_code_points(std::string_view text, std::size_t count) {
   return text.substr(first_code_points(text, text_width(text) - count).size());
 }
 
+// U+0080 to U+009F, which terminals obey as they do ESC and what follows it.
+bool is_upper_control(std::string_view text) {
+  return text.size() >= 2 && text[0] == '\xC2' && static_cast<unsigned char>(text[1]) < 0xA0U &&
+         !begins_code_point(text[1]);
+}
+
+// The bytes of the character that `text` begins with; 0 when it is a control character or no UTF-8.
+std::size_t printable_bytes(std::string_view text) {
+  const auto lead = static_cast<unsigned char>(text[0]);
+  if (lead < 0x80U) {
+    return lead < 0x20U || lead == 0x7FU ? 0 : 1;
+  }
+  const std::size_t bytes = lead >= 0xF5U ? 0 : lead >= 0xF0U ? 4 : lead >= 0xE0U ? 3 : lead >= 0xC2U ? 2 : 0;
+  if (bytes == 0 || text.size() < bytes || is_upper_control(text)) {
+    return 0;
+  }
+  return std::ranges::none_of(text.substr(1, bytes - 1), begins_code_point) ? bytes : 0;
+}
+
 }  // namespace
 
 std::size_t text_width(std::string_view text) {
@@ -45,9 +64,12 @@ std::string cut_in_the_middle(std::string_view text, std::size_t width) {
 }
 
 std::string printable(std::string_view text) {
-  std::string result(text);
-  std::ranges::replace_if(
-      result, [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; }, '?');
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t length = printable_bytes(text);
+    result += length > 0 ? text.substr(0, length) : "?";
+    text.remove_prefix(std::max<std::size_t>(length, is_upper_control(text) ? 2 : 1));
+  }
   return result;
 }
 

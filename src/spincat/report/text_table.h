@@ -15,7 +15,7 @@ std::size_t text_width(std::string_view text);
 // `text` cut to `width` columns by leaving out its middle ("very/lo…air.obj"), never inside a code point.
 std::string cut_in_the_middle(std::string_view text, std::size_t width);
 
-// `text` with control characters replaced by '?', so that a file's name cannot steer a terminal.
+// `text` with control characters and what is no UTF-8 replaced by '?', so that a file's name cannot steer a terminal.
 std::string printable(std::string_view text);
 
 enum class Align { left, right };

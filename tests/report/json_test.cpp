@@ -1,0 +1,157 @@
+#include "spincat/report/json.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "spincat/pipeline/settings_json.h"
+
+namespace spincat {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Keys = std::vector<std::string>;
+
+// The object that one line holds.
+Json parsed(const std::string& line) {
+  EXPECT_EQ(line.find('\n'), std::string::npos);
+  return Json::parse(line);
+}
+
+Keys keys_of(const Json& json) {
+  Keys keys;
+  for (const auto& [key, value] : json.items()) {
+    keys.push_back(key);
+  }
+  return keys;
+}
+
+Model two_categories() {
+  Model model;
+  model.settings = preset("paper");
+  model.categories = {"bed", "chair \"x\""};
+  model.object_counts = {9, 69};
+  model.judges.weights.resize(1, 12);
+  model.judges.support_vectors = {7};
+  model.made_by = "spincat 0.1.0";
+  model.dataset = "furniture";
+  return model;
+}
+
+Classification chair() {
+  Classification c;
+  c.ballot = count_votes(2, std::vector<float>{-0.5F});
+  c.confidence = 0.75;
+  c.seconds = {0.001, 0.002, 0.003, 0.004, 0.005};
+  return c;
+}
+
+TEST(ClassificationJson, HasThePromisedKeys) {
+  const Json json = parsed(classification_json("a.obj", chair(), two_categories(), false));
+  EXPECT_EQ(keys_of(json), (Keys{"file", "category", "confidence", "votes", "milliseconds"}));
+  EXPECT_EQ(json["file"], "a.obj");
+  EXPECT_EQ(json["category"], "chair \"x\"");
+  EXPECT_EQ(json["confidence"], 0.75);
+  EXPECT_EQ(json["votes"], (Json{{"bed", 0}, {"chair \"x\"", 1}}));
+  EXPECT_NEAR(json["milliseconds"].get<double>(), 15.0, 1e-9);
+}
+
+TEST(ClassificationJson, TellsEveryJudgesWord) {
+  const Json json = parsed(classification_json("a.obj", chair(), two_categories(), true));
+  EXPECT_EQ(keys_of(json), (Keys{"file", "category", "confidence", "votes", "milliseconds", "judges"}));
+  ASSERT_EQ(json["judges"].size(), 1U);
+  EXPECT_EQ(json["judges"][0], (Json{{"a", "bed"}, {"b", "chair \"x\""}, {"vote", "chair \"x\""}, {"margin", -0.5}}));
+}
+
+TEST(ErrorJson, HasThePromisedKeys) {
+  const Json json = parsed(error_json("a \"b\"\\\n.obj", "line 3: bad"));
+  EXPECT_EQ(keys_of(json), (Keys{"file", "error"}));
+  EXPECT_EQ(json["file"], "a \"b\"\\\n.obj");
+  EXPECT_EQ(json["error"], "line 3: bad");
+}
+
+TEST(ErrorJson, ReplacesWhatIsNoUtf8) {
+  EXPECT_EQ(parsed(error_json("caf\xE9.obj", "\xFF"))["file"], "caf\xEF\xBF\xBD.obj");
+}
+
+TEST(EvaluationJson, HasThePromisedKeys) {
+  Evaluation e;
+  e.dataset = "furniture";
+  e.categories = {"bed", "chair"};
+  e.object_counts = {2, 3};
+  e.skipped = {{"x.off", "why"}};
+  e.splits = 4;
+  e.mean_class_rate = {0.5, 0.1};
+  e.overall_rate = {0.25, 0.2};
+  e.confusion = {{1, 2}, {3, 4}};
+  e.seconds = {1, 2, 3, 4, 5};
+  e.wall_seconds = 6;
+  const Json json = parsed(evaluation_json(e, preset("paper")));
+  EXPECT_EQ(keys_of(json), (Keys{"dataset", "objects", "categories", "splits", "mean_class_rate", "mean_class_rate_std",
+                                 "overall_rate", "overall_rate_std", "confusion", "seconds", "object_counts",
+                                 "stage_seconds", "settings", "skipped"}));
+  EXPECT_EQ(json["dataset"], "furniture");
+  EXPECT_EQ(json["objects"], 5);
+  EXPECT_EQ(json["categories"], Json(e.categories));
+  EXPECT_EQ(json["splits"], 4);
+  EXPECT_EQ(json["mean_class_rate"], 0.5);
+  EXPECT_EQ(json["mean_class_rate_std"], 0.1);
+  EXPECT_EQ(json["overall_rate"], 0.25);
+  EXPECT_EQ(json["overall_rate_std"], 0.2);
+  EXPECT_EQ(json["confusion"].dump(), "[[1,2],[3,4]]");
+  EXPECT_EQ(json["seconds"], 6.0);
+  EXPECT_EQ(json["object_counts"], (Json{{"bed", 2}, {"chair", 3}}));
+  EXPECT_EQ(json["stage_seconds"],
+            (Json{{"read", 1.0}, {"prepare", 2.0}, {"spin", 3.0}, {"encode", 4.0}, {"judge", 5.0}}));
+  EXPECT_EQ(json["settings"], settings_to_json(preset("paper")));
+  EXPECT_EQ(json["skipped"].dump(), R"([{"file":"x.off","error":"why"}])");
+}
+
+TEST(EvaluationJson, OfNothingSkippedIsAnEmptyList) {
+  EXPECT_EQ(parsed(evaluation_json({}, preset("paper")))["skipped"].dump(), "[]");
+  EXPECT_EQ(parsed(evaluation_json({}, preset("paper")))["object_counts"].dump(), "{}");
+}
+
+TEST(ModelJson, HasThePromisedKeys) {
+  const Json json = parsed(model_json("m.spincat", two_categories()));
+  EXPECT_EQ(keys_of(json), (Keys{"file", "kind", "made_by", "dataset", "categories", "object_counts", "features",
+                                 "judges", "settings"}));
+  EXPECT_EQ(json["kind"], "model");
+  EXPECT_EQ(json["categories"], Json(two_categories().categories));
+  EXPECT_EQ(json["object_counts"].dump(), R"({"bed":9,"chair \"x\"":69})");  // as evaluation_json has them
+  EXPECT_EQ(json["features"], 12);
+  EXPECT_EQ(json["judges"], 1);
+}
+
+TEST(TrainingJson, IsThatOfTheModelWithWhatWasSkipped) {
+  const TrainResult result{two_categories(), {{"x.off", "why"}}, {1, 2, 3, 4, 5}};
+  const Json json = parsed(training_json("m.spincat", result));
+  Keys keys = keys_of(parsed(model_json("m.spincat", two_categories())));
+  keys.insert(keys.end(), {"stage_seconds", "skipped"});
+  EXPECT_EQ(keys_of(json), keys);
+  EXPECT_EQ(json["skipped"].dump(), R"([{"file":"x.off","error":"why"}])");
+  EXPECT_EQ(json["stage_seconds"]["judge"], 5.0);
+}
+
+TEST(ObjectJson, HasThePromisedKeys) {
+  ObjectFacts facts;
+  facts.is_mesh = true;
+  facts.points = 8;
+  facts.triangles = 12;
+  facts.low = Vec3(1, 1, 1);
+  facts.high = Vec3(2, 3, 4);
+  facts.area = 22;
+  facts.resolution = 2;
+  facts.unused_vertices = 5;
+  const Json json = parsed(object_json("a.off", facts));
+  EXPECT_EQ(keys_of(json), (Keys{"file", "kind", "points", "triangles", "size", "area", "resolution", "defects"}));
+  EXPECT_EQ(json["kind"], "mesh");
+  EXPECT_EQ(json["size"].dump(), "[1.0,2.0,3.0]");
+  EXPECT_EQ(json["defects"].dump(),
+            R"({"repeated_points":0,"unused_vertices":5,"flat_triangles":0,"repeated_triangles":0})");
+  facts.is_mesh = false;
+  EXPECT_EQ(parsed(object_json("a.off", facts))["kind"], "point cloud");
+}
+
+}  // namespace
+}  // namespace spincat

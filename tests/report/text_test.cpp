@@ -1,0 +1,191 @@
+#include "spincat/report/text.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "spincat/report/text_table.h"
+
+namespace spincat {
+namespace {
+
+TEST(TextWidth, CountsCodePoints) {
+  EXPECT_EQ(text_width(""), 0U);
+  EXPECT_EQ(text_width("chair"), 5U);
+  EXPECT_EQ(text_width("étagère"), 7U);
+  EXPECT_EQ(text_width("椅子"), 2U);
+}
+
+TEST(CutInTheMiddle, KeepsWhatFits) {
+  EXPECT_EQ(cut_in_the_middle("abcdef", 6), "abcdef");
+  EXPECT_EQ(cut_in_the_middle("étagère", 7), "étagère");
+  EXPECT_EQ(cut_in_the_middle("", 0), "");
+}
+
+TEST(CutInTheMiddle, LeavesOutTheMiddle) {
+  EXPECT_EQ(cut_in_the_middle("abcdefgh", 5), "ab…gh");
+  EXPECT_EQ(cut_in_the_middle("abcdefgh", 4), "a…gh");
+  EXPECT_EQ(cut_in_the_middle("abcdefgh", 1), "…");
+  EXPECT_EQ(cut_in_the_middle("abcdefgh", 0), "");
+}
+
+TEST(CutInTheMiddle, NeverCutsInsideACodePoint) {
+  EXPECT_EQ(cut_in_the_middle("éèêëàâäùûü", 5), "éè…ûü");
+  for (std::size_t width = 0; width < 12; ++width) {
+    EXPECT_EQ(text_width(cut_in_the_middle("éèêëàâäùûü", width)), std::min<std::size_t>(width, 10));
+  }
+}
+
+TEST(Printable, ReplacesControlCharacters) {
+  EXPECT_EQ(printable("a\x1B[31mb\n\t\x7F"), "a?[31mb???");
+  EXPECT_EQ(printable(std::string_view("\0x", 2)), "?x");
+  EXPECT_EQ(printable("étagère 椅子"), "étagère 椅子");
+}
+
+TEST(Printable, ReplacesTheUpperControlCharacters) {
+  // U+009B is ESC [ in one character; as a byte of its own it is the same on an 8-bit terminal.
+  EXPECT_EQ(printable("a\xC2\x9B"
+                      "31m"),
+            "a?31m");
+  EXPECT_EQ(printable("a\x9B"
+                      "31m"),
+            "a?31m");
+  EXPECT_EQ(printable("\xC2\xA0"), "\xC2\xA0");  // the first after them
+}
+
+TEST(Printable, ReplacesWhatIsNoUtf8) {
+  EXPECT_EQ(printable("caf\xE9"), "caf?");
+  EXPECT_EQ(printable("\xE6\xA4"), "??");
+  EXPECT_EQ(printable("\xFF\xFE!"), std::string(2, '?') + "!");
+  EXPECT_EQ(printable("\xE6(\xA4"), "?(?");
+}
+
+TEST(TextTable, AlignsColumnsWithoutTrailingBlanks) {
+  TextTable table({Align::left, Align::right, Align::left});
+  table.add({"étagère", "7", "x"});
+  table.add({"a", "1234", ""});
+  EXPECT_EQ(table.str(), "étagère     7  x\na        1234\n");
+  EXPECT_EQ(TextTable({Align::left}).str(), "");
+}
+
+TEST(HumanSeconds, ChoosesTheUnit) {
+  EXPECT_EQ(human_seconds(0.0), "0.0 ms");
+  EXPECT_EQ(human_seconds(0.0013), "1.3 ms");
+  EXPECT_EQ(human_seconds(0.25), "250 ms");
+  EXPECT_EQ(human_seconds(0.9994), "999 ms");
+  EXPECT_EQ(human_seconds(0.9996), "1.0 s");
+  EXPECT_EQ(human_seconds(12.44), "12.4 s");
+  EXPECT_EQ(human_seconds(59.94), "59.9 s");
+  EXPECT_EQ(human_seconds(59.96), "1 min 0 s");
+  EXPECT_EQ(human_seconds(200), "3 min 20 s");
+  EXPECT_EQ(human_seconds(3599.4), "59 min 59 s");
+  EXPECT_EQ(human_seconds(3599.6), "1 h 0 min");
+  EXPECT_EQ(human_seconds(7325), "2 h 2 min");
+}
+
+Evaluation three_categories() {
+  Evaluation e;
+  e.dataset = "furniture";
+  e.categories = {"chair", "étagère", "table\x1B"};
+  e.object_counts = {10, 5, 1};
+  e.splits = 4;
+  e.mean_class_rate = {0.75, 0.0256};
+  e.overall_rate = {0.8, 0.01};
+  e.confusion = {{7, 1, 0}, {2, 2, 0}, {0, 0, 0}};
+  e.wall_seconds = 12.4;
+  return e;
+}
+
+TEST(EvaluationText, IsTheConfusionMatrixInPerCent) {
+  EXPECT_EQ(evaluation_text(three_categories(), 100),
+            "truth \\ named as, %  objects  chair  étagère  table?\n"
+            "chair                     10     88       12       .\n"
+            "étagère                    5     50       50       .\n"
+            "table?                     1      .        .       .\n"
+            "\n"
+            "mean-class rate  0.750 ± 0.026   (mean and standard deviation over 4 splits)\n"
+            "overall rate     0.800 ± 0.010   (16 objects, 3 categories, 12.4 s)\n");
+}
+
+TEST(EvaluationText, FallsBackToListsWhereTheMatrixIsTooWide) {
+  const std::string wide = evaluation_text(three_categories(), 52);
+  const std::string narrow = evaluation_text(three_categories(), 51);
+  EXPECT_NE(wide.find("truth"), std::string::npos);  // 52 columns wide
+  EXPECT_EQ(narrow.substr(0, narrow.find("\nmean-class")),
+            "category  objects  right\n"
+            "chair          10   88 %\n"
+            "étagère         5   50 %\n"
+            "table?          1      -\n"
+            "\n"
+            "most often confused  named as  of its objects\n"
+            "étagère              chair               50 %\n"
+            "chair                étagère             12 %\n");
+}
+
+TEST(EvaluationText, FallsBackWithoutAnyConfusion) {
+  Evaluation e = three_categories();
+  e.confusion = {{8, 0, 0}, {0, 4, 0}, {0, 0, 1}};
+  const std::string text = evaluation_text(e, 10);
+  EXPECT_EQ(text.find("confused"), std::string::npos);
+  EXPECT_NE(text.find("100 %"), std::string::npos);
+}
+
+TEST(BallotText, ShowsTheWinnersJudgesFirstThenByStrength) {
+  const Ballot ballot = count_votes(3, std::vector<float>{-0.5F, 2.0F, 1.25F});  // 1 wins: over 0, over 2
+  EXPECT_EQ(ballot_text(ballot, {"bed", "chair", "table\n"}),
+            "     chair  not table?  1.25\n"
+            "     chair  not bed     0.50\n"
+            "     bed    not table?  2.00\n");
+}
+
+TEST(BallotText, NamesHowATieWasBroken) {
+  const std::vector<std::string> names = {"a", "b", "c"};
+  EXPECT_NE(ballot_text(count_votes(3, std::vector<float>{1.0F, -1.5F, 3.0F}), names)
+                .find("a tie, broken by the sum of the margins\n"),
+            std::string::npos);
+  EXPECT_NE(ballot_text(count_votes(3, std::vector<float>{2.0F, -2.0F, 2.0F}), names)
+                .find("a tie, broken by the order of the categories\n"),
+            std::string::npos);
+}
+
+TEST(ObjectText, NamesOnlyTheDefectsThereAre) {
+  ObjectFacts facts;
+  facts.is_mesh = true;
+  facts.points = 8;
+  facts.triangles = 12;
+  facts.high = Vec3(1, 2, 3);
+  facts.area = 22;
+  facts.resolution = 2;
+  facts.flat_triangles = 3;
+  EXPECT_EQ(object_text(facts),
+            "kind                    mesh\n"
+            "vertices                8\n"
+            "triangles               12\n"
+            "size                    1 x 2 x 3\n"
+            "area                    22\n"
+            "resolution              2\n"
+            "triangles without area  3\n");
+  facts.is_mesh = false;
+  facts.has_normals = true;
+  EXPECT_EQ(object_text(facts).substr(0, object_text(facts).find("triangles")).find("area"), std::string::npos);
+  EXPECT_NE(object_text(facts).find("point cloud with normals"), std::string::npos);
+}
+
+TEST(ModelText, SaysWhatWasLearnt) {
+  Model model;
+  model.settings = preset("default");
+  model.categories = {"bed", "chair\x07"};
+  model.object_counts = {9, 69};
+  model.judges.weights.resize(1, 4800);
+  model.judges.support_vectors = {7};
+  model.made_by = "spincat 0.1.0";
+  model.dataset = "furniture";
+  const std::string text = model_text(model);
+  for (const char* part : {"spincat 0.1.0", "furniture", "bed (9), chair? (69)", "1 of 4800 features",
+                           "support angle soft", "seed 1, 6 stretched copies"}) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
+  }
+}
+
+}  // namespace
+}  // namespace spincat

@@ -3,12 +3,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <numbers>
-#include <numeric>
-#include <unordered_map>
 #include <vector>
 
 #include "spincat/prepare/normals.h"
@@ -87,6 +88,88 @@ class Camera {
   Eigen::Matrix3d axes_;
 };
 
+// A run of pixels in a row; empty when last < first.
+struct Columns {
+  int first;
+  int last;
+};
+
+// The weights of a projected triangle's corners at points of the image: all at least zero inside and on its edge. They
+// are linear, and so is one over the depth.
+class Weights {
+ public:
+  Weights(const Vec3& a, const Vec3& b, const Vec3& c, double scale)
+      : a_(a),
+        ab_(b - a),
+        ac_(c - a),
+        scale_(scale),
+        step_b_(ac_.y() * scale),
+        step_c_(-ab_.y() * scale),
+        depth_step_(step_b_ * ab_.z() + step_c_ * ac_.z()) {}
+
+  // The pixels of a row, among `columns`, whose centres are not outside.
+  Columns inside(double y, Columns columns) const {
+    constexpr int kFew = 6;  // that are tested faster than the crossings are computed
+    if (columns.last - columns.first > kFew) {
+      narrow(y, columns);
+    }
+    while (columns.first <= columns.last && !is_inside(columns.first + 0.5, y)) {
+      ++columns.first;
+    }
+    while (columns.first < columns.last && !is_inside(columns.last + 0.5, y)) {
+      --columns.last;
+    }
+    return columns;
+  }
+
+  double inverse_depth(double x, double y) const { return a_.z() + b(x, y) * ab_.z() + c(x, y) * ac_.z(); }
+  double depth_step() const { return depth_step_; }  // from one column to the next
+
+ private:
+  double b(double x, double y) const { return ((x - a_.x()) * ac_.y() - (y - a_.y()) * ac_.x()) * scale_; }
+  double c(double x, double y) const { return (ab_.x() * (y - a_.y()) - ab_.y() * (x - a_.x())) * scale_; }
+
+  bool is_inside(double x, double y) const {
+    const double wb = b(x, y);
+    const double wc = c(x, y);
+    return 1.0 - wb - wc >= 0.0 && wb >= 0.0 && wc >= 0.0;
+  }
+
+  // Leaves out columns that are more than a pixel outside, so that rounding decides about none: a long thin triangle
+  // costs its length, not its bounding box.
+  void narrow(double y, Columns& columns) const {
+    const double x = columns.first + 0.5;
+    const double wb = b(x, y);
+    const double wc = c(x, y);
+    const int first = columns.first;
+    cut(wb, step_b_, first, columns);
+    cut(wc, step_c_, first, columns);
+    cut(1.0 - wb - wc, -step_b_ - step_c_, first, columns);
+  }
+
+  // The same for one weight that is `weight` at column `first` and changes by `step` a column.
+  static void cut(double weight, double step, int first, Columns& columns) {
+    if (step == 0.0) {
+      return;
+    }
+    const double to_zero = std::clamp(-weight / step, -2.0, 2.0 * kPixels);
+    const int at = first + static_cast<int>(to_zero);
+    if (step > 0.0) {
+      columns.first = std::max(columns.first, at - 2);
+    } else {
+      columns.last = std::min(columns.last, at + 2);
+    }
+  }
+
+  Vec3 a_;
+  Vec3 ab_;
+  Vec3 ac_;
+  double scale_;
+  double step_b_;
+  double step_c_;
+  double depth_step_;
+};
+
 // What a camera sees: at each pixel the nearest face and one over its depth.
 class DepthBuffer {
  public:
@@ -110,17 +193,12 @@ class DepthBuffer {
     if (twice_area == 0.0) {
       return;
     }
-    const double scale = 1.0 / twice_area;  // its sign makes either winding's weights positive inside
+    const Weights weights(a, b, c, 1.0 / twice_area);  // the area's sign makes those of either winding positive inside
     for (int row = first_row; row <= last_row; ++row) {
-      const double y = row + 0.5;
-      for (int column = first_column; column <= last_column; ++column) {
-        const double x = column + 0.5;
-        const double wb = ((x - a.x()) * (c.y() - a.y()) - (y - a.y()) * (c.x() - a.x())) * scale;
-        const double wc = ((b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x())) * scale;
-        const double wa = 1.0 - wb - wc;
-        if (wa >= 0.0 && wb >= 0.0 && wc >= 0.0) {
-          keep_nearest(face, row * kPixels + column, wa * a.z() + wb * b.z() + wc * c.z());
-        }
+      const Columns inside = weights.inside(row + 0.5, {first_column, last_column});
+      const double nearest = weights.inverse_depth(inside.first + 0.5, row + 0.5);
+      for (int column = inside.first; column <= inside.last; ++column) {
+        keep_nearest(face, row * kPixels + column, nearest + (column - inside.first) * weights.depth_step());
       }
     }
   }
@@ -165,11 +243,38 @@ void collect_visible(const DepthBuffer& buffer, const Camera& camera, const std:
 std::uint64_t cell_key(const Vec3& p, const Vec3& n) {
   std::uint64_t key = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto cell = static_cast<std::int64_t>(std::floor(p[axis] / kCellEdge)) + (1 << 19);
+    const double at = p[axis] / kCellEdge;
+    const auto towards_zero = static_cast<std::int64_t>(at);
+    const std::int64_t cell = towards_zero - (at < static_cast<double>(towards_zero) ? 1 : 0) + (1 << 19);
     key = (key << 20) | (static_cast<std::uint64_t>(cell) & 0xFFFFFU);
     key = (key << 1) | (n[axis] < 0.0 ? 1U : 0U);
   }
   return key;
+}
+
+// For each key how many of the keys are equal to it. A table with open addressing: several times faster than a
+// std::unordered_map, which was most of the time of even_out.
+std::vector<std::uint32_t> count_equal(const std::vector<std::uint64_t>& keys) {
+  struct Slot {
+    std::uint64_t key = 0;
+    std::uint32_t count = 0;  // 0: free
+  };
+  const std::size_t size = std::bit_ceil(2 * keys.size() + 1);
+  const int shift = std::countl_zero(size - 1);
+  std::vector<Slot> slots(size);
+  std::vector<std::uint32_t> places(keys.size());
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    // Fibonacci hashing: the upper bits of a product with 2^64 over the golden section.
+    std::size_t at = (keys[i] * 0x9E3779B97F4A7C15ULL) >> shift;
+    while (slots[at].count != 0 && slots[at].key != keys[i]) {
+      at = (at + 1) & (size - 1);
+    }
+    slots[at].key = keys[i];
+    ++slots[at].count;
+    places[i] = static_cast<std::uint32_t>(at);
+  }
+  std::ranges::transform(places, places.begin(), [&](std::uint32_t at) { return slots[at].count; });
+  return places;
 }
 
 }  // namespace
@@ -183,6 +288,9 @@ SurfacePoints external_surface(const Mesh& mesh, Random& random) {
   std::vector<Vec3> projected(mesh.vertices.size());
   DepthBuffer buffer;
   SurfacePoints points;
+  constexpr std::size_t kUsualPoints = 1 << 15;
+  points.positions.reserve(kUsualPoints);
+  points.normals.reserve(kUsualPoints);
   for (const Vec3& corner : dodecahedron_corners()) {
     const Camera camera(kEyeDistance * (turn * corner));
     std::ranges::transform(mesh.vertices, projected.begin(), [&](const Vec3& v) { return camera.project(v); });
@@ -198,27 +306,28 @@ SurfacePoints external_surface(const Mesh& mesh, Random& random) {
 
 SurfacePoints even_out(const SurfacePoints& points, std::size_t count, Random& random) {
   const std::size_t size = points.positions.size();
-  std::unordered_map<std::uint64_t, std::uint32_t> points_in_cell;
   std::vector<std::uint64_t> keys(size);
-  for (std::size_t i = 0; i < size; ++i) {
-    keys[i] = cell_key(points.positions[i], points.normals[i]);
-    ++points_in_cell[keys[i]];
-  }
+  std::ranges::transform(points.positions, points.normals, keys.begin(), cell_key);
+  const std::vector<std::uint32_t> crowd = count_equal(keys);
   // Weighted sampling without replacement (Efraimidis and Spirakis): the smallest of exponential waiting times whose
   // rate is the point's weight, here one over the number of points in its cell.
-  std::vector<double> waiting(size);
-  for (std::size_t i = 0; i < size; ++i) {
-    waiting[i] = -std::log(1.0 - random.uniform()) * points_in_cell[keys[i]];
+  struct Waiting {
+    double time;
+    std::uint32_t point;
+    auto operator<=>(const Waiting&) const = default;
+  };
+  std::vector<Waiting> order(size);
+  for (std::uint32_t i = 0; i < size; ++i) {
+    order[i] = {-std::log(1.0 - random.uniform()) * crowd[i], i};
   }
-  std::vector<std::uint32_t> order(size);
-  std::iota(order.begin(), order.end(), 0U);
   const std::size_t kept = std::min(count, size);
-  std::ranges::partial_sort(order, order.begin() + static_cast<std::ptrdiff_t>(kept),
-                            [&](auto a, auto b) { return waiting[a] != waiting[b] ? waiting[a] < waiting[b] : a < b; });
+  const auto last = order.begin() + static_cast<std::ptrdiff_t>(kept);
+  std::ranges::nth_element(order, last);
+  std::ranges::sort(order.begin(), last);
   SurfacePoints drawn;
   for (std::size_t k = 0; k < kept; ++k) {
-    drawn.positions.push_back(points.positions[order[k]]);
-    drawn.normals.push_back(points.normals[order[k]]);
+    drawn.positions.push_back(points.positions[order[k].point]);
+    drawn.normals.push_back(points.normals[order[k].point]);
   }
   return drawn;
 }

@@ -1,4 +1,4 @@
-// Work cut into steps that are done on several threads and delivered in order. Private to spin.
+// Private to spin: work cut into steps that are done on several threads and delivered in order.
 #pragma once
 
 #include <condition_variable>

@@ -1,4 +1,4 @@
-// The inner loops of the spin-image engine, one set of functions for each SIMD instruction set. Private to spin.
+// Private to spin: the inner loops of the spin-image engine, one set of functions for each SIMD instruction set.
 #pragma once
 
 #include <cstddef>

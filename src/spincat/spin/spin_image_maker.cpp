@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "spincat/geometry/aligned.h"
@@ -40,40 +41,90 @@ class SpinImageMaker::Engine {
   const SpinImageShape& shape() const { return shape_; }
   std::size_t tiles() const { return surface_.tiles(); }
 
-  void make(const OrientedPoints& spin_points, std::size_t first, std::span<float> images, std::size_t threads) const {
-    const std::vector<std::size_t> order = spatial_order(spin_points, first, images.size() / shape_.size());
-    const std::size_t at_once =
-        std::clamp<std::size_t>(kSumsBytes / (layout_.size * sizeof(std::int64_t)), 1, kMostImages);
-    Sums sums(std::min(at_once, order.size()) * layout_.size, 0);
-    for (std::size_t begin = 0; begin < order.size(); begin += at_once) {
-      const std::span group = std::span(order).subspan(begin, std::min(at_once, order.size() - begin));
-      const auto image = [&](std::size_t g) {
-        return images.subspan((group[g] - first) * shape_.size(), shape_.size());
-      };
-      if (threads > 1) {
-        sum_sharing(spin_points, group, threads, sums);
-      } else {
-        sum_tiles(spin_points, group, 0, tiles(), sums.data());
-      }
-      for (std::size_t g = 0; g < group.size(); ++g) {
-        kernel_.finish(support_, sums.data() + g * layout_.size, image(g));
-      }
+  // One image that is wanted: of which spin point, and where to.
+  struct Wanted {
+    std::size_t spin_point;
+    std::span<float> image;
+  };
+
+  void make(const OrientedPoints& spin_points, std::vector<Wanted> wanted, std::size_t threads) const {
+    sort_in_space(spin_points, wanted);
+    constexpr std::size_t kFewImages = 4;  // a thread's, below which the threads share out the surface
+    if (threads > 1 && wanted.size() < kFewImages * threads) {
+      make_sharing_surface(spin_points, wanted, threads);
+    } else {
+      make_sharing_images(spin_points, wanted, threads);
     }
   }
 
  private:
   // Spin points that are neighbours see the same part of the surface: one after the other they find it in the cache.
-  std::vector<std::size_t> spatial_order(const OrientedPoints& spin_points, std::size_t first,
-                                         std::size_t count) const {
-    std::vector<std::uint32_t> keys(count);
-    for (std::size_t k = 0; k < count; ++k) {
-      const SpinPoint p = spin_point(spin_points, first + k);
-      keys[k] = surface_.curve_key(p.x, p.y, p.z);
+  void sort_in_space(const OrientedPoints& spin_points, std::vector<Wanted>& wanted) const {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> order(wanted.size());
+    for (std::uint32_t k = 0; k < order.size(); ++k) {
+      const SpinPoint p = spin_point(spin_points, wanted[k].spin_point);
+      order[k] = {surface_.curve_key(p.x, p.y, p.z), k};
     }
-    std::vector<std::size_t> order(count);
-    std::iota(order.begin(), order.end(), first);
-    std::ranges::stable_sort(order, {}, [&](std::size_t k) { return keys[k - first]; });
-    return order;
+    std::ranges::sort(order);
+    std::vector<Wanted> sorted;
+    sorted.reserve(wanted.size());
+    for (const auto& [key, k] : order) {
+      sorted.push_back(wanted[k]);
+    }
+    wanted.swap(sorted);
+  }
+
+  // How many images are under way at a time.
+  std::size_t images_at_once() const {
+    return std::clamp<std::size_t>(kSumsBytes / (layout_.size * sizeof(std::int64_t)), 1, kMostImages);
+  }
+
+  void make_sharing_images(const OrientedPoints& spin_points, std::span<const Wanted> wanted,
+                           std::size_t threads) const {
+    const std::size_t share = (wanted.size() + threads - 1) / threads;
+    const auto make_share = [&](std::size_t step, std::size_t) {
+      const std::size_t begin = std::min(step * share, wanted.size());
+      make_run(spin_points, wanted.subspan(begin, std::min(share, wanted.size() - begin)));
+      return true;
+    };
+    InOrder<bool>(threads, threads, make_share, [](std::size_t, bool) {});
+  }
+
+  void make_run(const OrientedPoints& spin_points, std::span<const Wanted> wanted) const {
+    Sums sums(std::min(images_at_once(), wanted.size()) * layout_.size, 0);
+    while (!wanted.empty()) {
+      const auto group = wanted.first(std::min(images_at_once(), wanted.size()));
+      sum_tiles(spin_points, group, 0, tiles(), sums.data());
+      finish(group, sums);
+      wanted = wanted.subspan(group.size());
+    }
+  }
+
+  void make_sharing_surface(const OrientedPoints& spin_points, std::span<const Wanted> wanted,
+                            std::size_t threads) const {
+    while (!wanted.empty()) {
+      const auto group = wanted.first(std::min(images_at_once(), wanted.size()));
+      const std::size_t slice = (tiles() + threads - 1) / threads;
+      Sums sums(group.size() * layout_.size, 0);
+      const auto make_slice = [&](std::size_t step, std::size_t) {
+        Sums part(sums.size(), 0);
+        sum_tiles(spin_points, group, std::min(step * slice, tiles()), std::min((step + 1) * slice, tiles()),
+                  part.data());
+        return part;
+      };
+      const auto add = [&](std::size_t, Sums& part) {
+        std::transform(part.begin(), part.end(), sums.begin(), sums.begin(), std::plus<>());
+      };
+      InOrder<Sums>(threads, threads, make_slice, add);
+      finish(group, sums);
+      wanted = wanted.subspan(group.size());
+    }
+  }
+
+  void finish(std::span<const Wanted> group, Sums& sums) const {
+    for (std::size_t g = 0; g < group.size(); ++g) {
+      kernel_.finish(support_, sums.data() + g * layout_.size, group[g].image);
+    }
   }
 
   // The surface passes through the cache in portions of about kTilesAtOnce tiles, each used for all images of a group:
@@ -92,12 +143,12 @@ class SpinImageMaker::Engine {
   }
 
   // Adds what the tiles [begin, end) contribute to the images of `group`, to one set of sums an image.
-  void sum_tiles(const OrientedPoints& spin_points, std::span<const std::size_t> group, std::size_t begin,
-                 std::size_t end, std::int64_t* sums) const {
+  void sum_tiles(const OrientedPoints& spin_points, std::span<const Wanted> group, std::size_t begin, std::size_t end,
+                 std::int64_t* sums) const {
     std::vector<TileList> seen(group.size());
     std::vector<std::size_t> done(group.size(), 0);
     for (std::size_t g = 0; g < group.size(); ++g) {
-      seen[g] = seen_tiles(spin_point(spin_points, group[g]), begin, end);
+      seen[g] = seen_tiles(spin_point(spin_points, group[g].spin_point), begin, end);
     }
     for (std::size_t portion = 0; portion < portions(); ++portion) {
       for (std::size_t g = 0; g < group.size(); ++g) {
@@ -105,7 +156,8 @@ class SpinImageMaker::Engine {
         const bool few = seen[g].size() <= kTilesAtOnce;
         const auto end_of_portion =
             few ? rest.end() : std::ranges::find_if(rest, [&](auto tile) { return tile % portions() != portion; });
-        sum_portion(spin_point(spin_points, group[g]), {rest.begin(), end_of_portion}, sums + g * layout_.size);
+        sum_portion(spin_point(spin_points, group[g].spin_point), {rest.begin(), end_of_portion},
+                    sums + g * layout_.size);
         done[g] += static_cast<std::size_t>(end_of_portion - rest.begin());
       }
     }
@@ -117,21 +169,6 @@ class SpinImageMaker::Engine {
       kernel_.accumulate(surface_, support_, p, now, sums);
       tiles_of_it = tiles_of_it.subspan(now.size());
     }
-  }
-
-  void sum_sharing(const OrientedPoints& spin_points, std::span<const std::size_t> group, std::size_t threads,
-                   Sums& sums) const {
-    const std::size_t slice = (tiles() + threads - 1) / threads;
-    const auto make_slice = [&](std::size_t step, std::size_t) {
-      Sums part(group.size() * layout_.size, 0);
-      sum_tiles(spin_points, group, std::min(step * slice, tiles()), std::min((step + 1) * slice, tiles()),
-                part.data());
-      return part;
-    };
-    const auto add = [&](std::size_t, Sums& part) {
-      std::transform(part.begin(), part.end(), sums.begin(), sums.begin(), std::plus<>());
-    };
-    InOrder<Sums>(threads, threads, make_slice, add);
   }
 
   SpinImageShape shape_;
@@ -152,11 +189,22 @@ const SpinImageShape& SpinImageMaker::shape() const {
 
 void SpinImageMaker::make(const OrientedPoints& spin_points, std::size_t first, std::span<float> images,
                           std::size_t threads) const {
-  engine_->make(spin_points, first, images, threads);
+  std::vector<Engine::Wanted> wanted;
+  for (std::size_t k = 0; k < images.size() / shape().size(); ++k) {
+    wanted.push_back({first + k, images.subspan(k * shape().size(), shape().size())});
+  }
+  engine_->make(spin_points, std::move(wanted), threads);
 }
 
-std::size_t SpinImageMaker::surface_pieces() const {
-  return engine_->tiles();
+void SpinImageMaker::make(const OrientedPoints& spin_points, std::span<SpinImageBlock> blocks,
+                          std::size_t threads) const {
+  std::vector<Engine::Wanted> wanted;
+  for (SpinImageBlock& block : blocks) {
+    for (std::size_t k = 0; k < block.images.count(); ++k) {
+      wanted.push_back({block.first + k, block.images.image(k)});
+    }
+  }
+  engine_->make(spin_points, std::move(wanted), threads);
 }
 
 }  // namespace spincat

@@ -7,6 +7,7 @@
 
 #include "spincat/geometry/oriented_points.h"
 #include "spincat/spin/params.h"
+#include "spincat/spin/spin_images.h"
 
 namespace spincat {
 
@@ -26,13 +27,13 @@ class SpinImageMaker {
   const SpinImageShape& shape() const;
 
   // Writes the images of the spin points first, first + 1, ... to `images`: as many as it has room for (a multiple of
-  // shape().size() floats; those spin points must exist). With more than one thread they share out the surface, not
-  // the images: for few spin points on a huge cloud.
+  // shape().size() floats; those spin points must exist). Threads share out the images, or, where these are few, the
+  // surface.
   void make(const OrientedPoints& spin_points, std::size_t first, std::span<float> images,
             std::size_t threads = 1) const;
 
-  // Into how many pieces `make` can cut the surface.
-  std::size_t surface_pieces() const;
+  // The same for a run of blocks, each of which says by its place and size which images it wants.
+  void make(const OrientedPoints& spin_points, std::span<SpinImageBlock> blocks, std::size_t threads = 1) const;
 
  private:
   class Engine;

@@ -1,6 +1,7 @@
 #include "spincat/spin/spin_images.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "spincat/spin/in_order.h"
 #include "spincat/spin/spin_image_maker.h"
@@ -8,20 +9,25 @@
 namespace spincat {
 namespace {
 
-// How threads share the work. With few blocks and a large surface they share out the surface, one block after the
-// other, as the images of a block are too few to keep them busy.
-struct Sharing {
-  std::size_t block_threads;    // blocks made at the same time
-  std::size_t surface_threads;  // threads within a block
-};
+using Blocks = std::vector<SpinImageBlock>;
 
-Sharing share_out(std::size_t blocks, std::size_t surface_pieces, int threads) {
-  const auto wanted = static_cast<std::size_t>(std::max(threads, 1));
-  constexpr std::size_t kFewPieces = 8;  // a thread's share below which sharing the surface costs more than it brings
-  if (blocks < 2 * wanted && surface_pieces >= kFewPieces * wanted) {
-    return {1, wanted};
+// How many blocks are made together: the more, the better their spin points can be put in spatial order; but there must
+// be some for each thread, and memory is bounded. This decides about nothing but speed.
+std::size_t blocks_together(std::size_t blocks, const SpinImageShape& shape, std::size_t threads) {
+  constexpr std::size_t kMostBytes = std::size_t{8} << 20;
+  constexpr std::size_t kMostBlocks = 64;
+  const std::size_t block_bytes = kSpinImageBlock * shape.size() * sizeof(float);
+  const std::size_t fair = threads == 1 ? kMostBlocks : blocks / (8 * threads);
+  return std::max<std::size_t>(std::min({kMostBlocks, kMostBytes / block_bytes, fair}), 1);
+}
+
+Blocks empty_blocks(std::size_t first, std::size_t count, std::size_t spin_points, const SpinImageShape& shape) {
+  Blocks blocks;
+  for (std::size_t b = first; b < first + count; ++b) {
+    const std::size_t at = b * kSpinImageBlock;
+    blocks.push_back({at, SpinImages(std::min(kSpinImageBlock, spin_points - at), shape)});
   }
-  return {std::clamp<std::size_t>(blocks, 1, wanted), 1};
+  return blocks;
 }
 
 }  // namespace
@@ -29,16 +35,19 @@ Sharing share_out(std::size_t blocks, std::size_t surface_pieces, int threads) {
 void make_spin_images(const OrientedPoints& surface, const OrientedPoints& spin_points, const SpinImageParams& params,
                       const SpinImageConsumer& consume, int threads) {
   const SpinImageMaker maker(surface, params);
+  const auto workers = static_cast<std::size_t>(std::max(threads, 1));
   const std::size_t blocks = (spin_points.size() + kSpinImageBlock - 1) / kSpinImageBlock;
-  const Sharing sharing = share_out(blocks, maker.surface_pieces(), threads);
+  // With enough blocks every thread makes its own; otherwise all threads work on each.
+  const bool share_blocks = blocks >= 4 * workers;
+  const std::size_t together = blocks_together(blocks, params.shape(), workers);
   const auto make = [&](std::size_t step, std::size_t) {
-    const std::size_t first = step * kSpinImageBlock;
-    SpinImageBlock block{first, SpinImages(std::min(kSpinImageBlock, spin_points.size() - first), params.shape())};
-    maker.make(spin_points, first, block.images.values(), sharing.surface_threads);
-    return block;
+    const std::size_t first = step * together;
+    Blocks made = empty_blocks(first, std::min(together, blocks - first), spin_points.size(), params.shape());
+    maker.make(spin_points, made, share_blocks ? 1 : workers);
+    return made;
   };
-  InOrder<SpinImageBlock>(blocks, sharing.block_threads, make,
-                          [&](std::size_t, SpinImageBlock& block) { consume(block); });
+  const auto deliver = [&](std::size_t, Blocks& made) { std::ranges::for_each(made, consume); };
+  InOrder<Blocks>((blocks + together - 1) / together, share_blocks ? workers : 1, make, deliver);
 }
 
 SpinImages make_spin_images(const OrientedPoints& surface, const OrientedPoints& spin_points,

@@ -21,29 +21,38 @@ std::size_t divided_up(std::size_t a, std::size_t b) {
 struct Interval {
   float low = kInfinity;
   float high = -kInfinity;
+  bool has_nan = false;
 };
 
-// The interval of the numbers among `values`. NaN positions lie in no support and need no bounds. In eight running
-// intervals, which a compiler turns into vectors.
+// The interval of the numbers among `values`. In sixteen running intervals, which a compiler turns into vectors.
 Interval interval_of(std::span<const float> values) {
-  std::array<float, 8> low;
-  std::array<float, 8> high;
+  constexpr std::size_t kLanes = 16;
+  std::array<float, kLanes> low;
+  std::array<float, kLanes> high;
+  std::array<std::int32_t, kLanes> nan{};
   low.fill(kInfinity);
   high.fill(-kInfinity);
   const auto widen = [&](std::size_t k, float v) {
     low[k] = v < low[k] ? v : low[k];
     high[k] = v > high[k] ? v : high[k];
+    nan[k] |= v != v ? 1 : 0;
   };
-  const std::size_t whole = values.size() / 8 * 8;
-  for (std::size_t i = 0; i < whole; i += 8) {
-    for (std::size_t k = 0; k < 8; ++k) {
+  const std::size_t whole = values.size() / kLanes * kLanes;
+  for (std::size_t i = 0; i < whole; i += kLanes) {
+    for (std::size_t k = 0; k < kLanes; ++k) {
       widen(k, values[i + k]);
     }
   }
   for (std::size_t i = whole; i < values.size(); ++i) {
     widen(i - whole, values[i]);
   }
-  return {*std::ranges::min_element(low), *std::ranges::max_element(high)};
+  Interval all;
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    all.low = low[k] < all.low ? low[k] : all.low;
+    all.high = high[k] > all.high ? high[k] : all.high;
+    all.has_nan = all.has_nan || nan[k] != 0;
+  }
+  return all;
 }
 
 void set_interval(Bounds& bounds, std::size_t centre, std::size_t half, std::size_t k, const Interval& all) {
@@ -63,15 +72,15 @@ void set_radius(Bounds& bounds, std::size_t k) {
   bounds.field[Bounds::kRadius][k] = std::sqrt(half(0) * half(0) + half(1) * half(1) + half(2) * half(2)) * kRoundUp;
 }
 
-// Bounds of one group of points. A normal that is no number passes every angle test, so it bounds nothing.
+// Bounds of one group of points. A position that is no number lies in no support and needs no bounds; a normal that is
+// none passes every angle test and can have none.
 void bound_group(Bounds& bounds, std::size_t g, const float* points) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    set_interval(bounds, Bounds::kX + axis, Bounds::kHalfX + axis, g,
-                 interval_of({points + axis * kGroupPoints, kGroupPoints}));
-    const std::span normals(points + (3 + axis) * kGroupPoints, kGroupPoints);
-    const bool known = std::none_of(normals.begin(), normals.end(), [](float v) { return std::isnan(v); });
+    const Interval position = interval_of({points + axis * kGroupPoints, kGroupPoints});
+    const Interval normal = interval_of({points + (3 + axis) * kGroupPoints, kGroupPoints});
+    set_interval(bounds, Bounds::kX + axis, Bounds::kHalfX + axis, g, position);
     set_interval(bounds, Bounds::kNormalX + axis, Bounds::kNormalHalfX + axis, g,
-                 known ? interval_of(normals) : Interval{kNaN, kNaN});
+                 normal.has_nan ? Interval{kNaN, kNaN} : normal);
   }
   set_radius(bounds, g);
 }
@@ -87,7 +96,8 @@ void bound_tile(Bounds& bounds, std::size_t t, const Bounds& groups, std::size_t
       for (std::size_t g = first; g < last; ++g) {
         const Interval one = get_interval(groups, centre + axis, half + axis, g);
         known = known && !std::isnan(one.low);
-        all = {std::min(all.low, one.low), std::max(all.high, one.high)};
+        all.low = std::min(all.low, one.low);
+        all.high = std::max(all.high, one.high);
       }
       set_interval(bounds, centre + axis, half + axis, t, known ? all : Interval{kNaN, kNaN});
     }
@@ -136,17 +146,20 @@ SurfaceGroups::SurfaceGroups(const OrientedPoints& surface, const Support& suppo
 // Cells of the curve: cubes, about one for every eight points that a surface (not a volume) puts into them.
 void SurfaceGroups::choose_cells(const OrientedPoints& surface) {
   float edge = 0.0F;
-  const std::array<std::span<const float>, 3> axes = {surface.x(), surface.y(), surface.z()};
+  const std::array<std::span<const float>, 3> positions = {surface.x(), surface.y(), surface.z()};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Interval all = interval_of(axes[axis]);
-    low_[axis] = all.low;
+    const Interval all = interval_of(positions[axis]);
+    axes_[axis].low = all.low;
     diagonal_ = std::hypot(diagonal_, all.high - all.low);
     edge = std::max(edge, all.high - all.low);
   }
   while (bits_ < 8 && (std::size_t{1} << (2 * bits_)) * 16 < surface.size()) {
     ++bits_;
   }
-  cells_per_unit_ = edge > 0.0F ? static_cast<float>(1U << bits_) / edge : 0.0F;
+  for (Axis& axis : axes_) {
+    axis.cells_per_unit = edge > 0.0F ? static_cast<float>(1U << bits_) / edge : 0.0F;
+    axis.last = static_cast<float>((1U << bits_) - 1U);
+  }
 }
 
 // Whether hardly a group would be left out: no angle test, and a support as large as the surface (or so few points that
@@ -156,15 +169,30 @@ bool SurfaceGroups::sees_everything(const Support& support) const {
   return !support.tests_angle && (reach >= 0.5F * diagonal_ || points_.size() <= 6 * kGroupPoints * kTileGroups);
 }
 
+// The cell along one axis. A position that is no number goes to the first cell, one that is outside to the nearest.
+std::uint32_t SurfaceGroups::Axis::cell(float v) const {
+  const float c = (v - low) * cells_per_unit;
+  const float inside = c > 0.0F ? c : 0.0F;
+  return static_cast<std::uint32_t>(static_cast<std::int32_t>(inside < last ? inside : last));
+}
+
 std::uint32_t SurfaceGroups::curve_key(float x, float y, float z) const {
-  const auto last = static_cast<float>((1U << bits_) - 1U);
-  // A position that is no number goes to the first cell, one that is outside to the nearest.
-  const auto cell = [&](float v, std::size_t axis) {
-    const float c = (v - low_[axis]) * cells_per_unit_;
-    const float inside = c > 0.0F ? c : 0.0F;
-    return static_cast<std::uint32_t>(static_cast<std::int32_t>(inside < last ? inside : last));
-  };
-  return spread_bits(cell(x, 0)) | (spread_bits(cell(y, 1)) << 1) | (spread_bits(cell(z, 2)) << 2);
+  return spread_bits(axes_[0].cell(x)) | (spread_bits(axes_[1].cell(y)) << 1) | (spread_bits(axes_[2].cell(z)) << 2);
+}
+
+// One axis after the other, in loops that a compiler turns into vectors.
+std::vector<std::uint32_t> SurfaceGroups::curve_keys(const OrientedPoints& surface) const {
+  std::vector<std::uint32_t> keys(surface.size(), 0U);
+  const std::array<std::span<const float>, 3> positions = {surface.x(), surface.y(), surface.z()};
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const Axis of = axes_[axis];
+    const float* from = positions[axis].data();
+    std::uint32_t* to = keys.data();
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      to[i] |= spread_bits(of.cell(from[i])) << axis;
+    }
+  }
+  return keys;
 }
 
 // Radix sort by the key, from the lowest digit up: stable, so the order is a function of the surface alone.
@@ -175,9 +203,10 @@ std::vector<std::uint32_t> SurfaceGroups::curve_order(const OrientedPoints& surf
   };
   constexpr unsigned kDigit = 9;  // bits
   constexpr std::uint32_t kMask = (1U << kDigit) - 1U;
-  std::vector<Keyed> sorted(surface.size());
+  const std::vector<std::uint32_t> keys = curve_keys(surface);
+  std::vector<Keyed> sorted(keys.size());
   for (std::uint32_t i = 0; i < sorted.size(); ++i) {
-    sorted[i] = {curve_key(surface.x()[i], surface.y()[i], surface.z()[i]), i};
+    sorted[i] = {keys[i], i};
   }
   std::vector<Keyed> other(sorted.size());
   for (unsigned shift = 0; shift < 3 * bits_; shift += kDigit) {

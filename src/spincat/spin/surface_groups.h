@@ -1,5 +1,5 @@
-// Private to spin. A surface cut into small groups of neighbouring points with known bounds, so that a kernel can pass over those that a
-// spin image cannot see. Private to spin.
+// Private to spin: a surface cut into small groups of neighbouring points with known bounds, so that a kernel can pass
+// over those that a spin image cannot see.
 #pragma once
 
 #include <array>
@@ -59,15 +59,23 @@ class SurfaceGroups {
   std::uint32_t curve_key(float x, float y, float z) const;
 
  private:
+  // How coordinates along one axis become cells.
+  struct Axis {
+    float low = 0.0F;  // of the bounding box
+    float cells_per_unit = 0.0F;
+    float last = 0.0F;
+    std::uint32_t cell(float v) const;
+  };
+
   void choose_cells(const OrientedPoints& surface);
   bool sees_everything(const Support& support) const;
+  std::vector<std::uint32_t> curve_keys(const OrientedPoints& surface) const;
   std::vector<std::uint32_t> curve_order(const OrientedPoints& surface) const;
   void copy_points(const OrientedPoints& surface, const std::vector<std::uint32_t>& order);
 
-  unsigned bits_ = 0;           // of a cell's coordinate along each axis
-  std::array<float, 3> low_{};  // corner of the bounding box
-  float diagonal_ = 0.0F;       // of that box
-  float cells_per_unit_ = 0.0F;
+  unsigned bits_ = 0;  // of a cell's number along each axis
+  std::array<Axis, 3> axes_;
+  float diagonal_ = 0.0F;  // of the bounding box
   AlignedFloats points_;
   Bounds group_bounds_;
   Bounds tile_bounds_;

@@ -100,8 +100,8 @@ struct Levels {
   std::vector<float> line;
 };
 
-// Sums, for each level, band, channel and cell, of the square root of the cell and of the cell itself (which is the
-// square of that root): from these the mean and the deviation.
+// Sums, for each level, band, channel and cell, of the square root of the cell and of the square of that root: from these
+// the mean and the deviation.
 class PyramidSums final : public Encoding::ObjectSums {
  public:
   PyramidSums(const OrientedPoints& surface, const OrientedPoints& spin_points, const SpinImageParams& params)
@@ -156,15 +156,16 @@ class PyramidSums final : public Encoding::ObjectSums {
     return level * level_size() + (band * shape_.channels + channel) * kMoments * cells_ * cells_;
   }
 
-  // Floats are exact enough here (the images are floats), and their square roots are four times as fast.
+  // Square roots in single precision are exact enough (the images are floats too) and four times as fast. Their squares
+  // are taken again in double, not from the cell itself: otherwise equal images would have a deviation by rounding.
   void add_cells(const std::vector<float>& cells, std::span<double> sums) const {
     const auto scale = static_cast<float>(1.0 / points_);
     double* roots = sums.data();
-    double* shares = roots + cells.size();
+    double* squares = roots + cells.size();
     for (std::size_t bin = 0; bin < cells.size(); ++bin) {
-      const float share = cells[bin] * scale;
-      roots[bin] += static_cast<double>(std::sqrt(share));
-      shares[bin] += static_cast<double>(share);
+      const auto root = static_cast<double>(std::sqrt(cells[bin] * scale));
+      roots[bin] += root;
+      squares[bin] += root * root;
     }
   }
 

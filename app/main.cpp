@@ -59,6 +59,7 @@ int run(int argc, char** argv) {
   const std::vector<std::pair<const char*, Command>> commands = {{"train", add_train(cli)},
                                                                  {"classify", add_classify(cli)},
                                                                  {"evaluate", add_evaluate(cli)},
+                                                                 {"spin", add_spin(cli)},
                                                                  {"info", add_info(cli)}};
   const auto is_called = [&](const auto& command) { return std::string_view(argv[1]) == command.first; };
   if (argc > 1 && argv[1][0] != '-' && std::ranges::none_of(commands, is_called)) {

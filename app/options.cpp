@@ -76,32 +76,41 @@ void DatasetArguments::add_to(CLI::App& command) {
   command.add_flag("--strict", strict, "An object that cannot be read is an error, not left out");
 }
 
-void SettingsArguments::add_to(CLI::App& command) {
-  const std::string group = "Settings";
+void SettingsArguments::add_spin_options_to(CLI::App& command) {
   const auto add = [&](const char* name, auto& variable, const std::string& help, const char* type) {
-    command.add_option(name, variable, help)->group(group)->type_name(type);
+    command.add_option(name, variable, help)->group("Settings")->type_name(type);
   };
-  command.add_option("--preset", preset, fmt::format("One of {}", fmt::join(preset_names(), ", ")))
-      ->group(group)
-      ->type_name("NAME")
-      ->capture_default_str();
   add("--seed", seed, "Of every random choice (default 1)", "N");
   add("--surface", surface, "Points that stand for a mesh: vertices, samples or external", "KIND");
   add("--points", points, "Surface points of an object", "N");
-  add("--spin-points", spin_points, "Spin points (and images) of an object", "N");
+  add("--spin-points", spin_points, "Spin points (and images) of an object, chosen at random", "N");
   add("--image-width", image_width, "Rows and columns of a spin image, 1 to 256", "N");
   add("--bin-size", bin_size,
       "Size of a bin: a number followed by rel (object radii), res (mesh resolutions) or abs (the file's unit); "
       "without one, the preset's unit",
       "SIZE");
   add("--support-angle", support_angle, "Largest angle between normals, 0 to 180 degrees", "DEGREES");
-  add("--encoding", encoding, fmt::format("One of {}", fmt::join(encoding_names(), ", ")), "NAME");
-  add("--c", c, "C of the judges' SVMs", "C");
-  add("--copies", copies, "Stretched copies of each training object", "N");
+}
+
+void SettingsArguments::add_to(CLI::App& command) {
+  const std::string group = "Settings";
+  command.add_option("--preset", preset, fmt::format("One of {}", fmt::join(preset_names(), ", ")))
+      ->group(group)
+      ->type_name("NAME")
+      ->capture_default_str();
+  add_spin_options_to(command);
+  command.add_option("--encoding", encoding, fmt::format("One of {}", fmt::join(encoding_names(), ", ")))
+      ->group(group)
+      ->type_name("NAME");
+  command.add_option("--c", c, "C of the judges' SVMs")->group(group)->type_name("C");
+  command.add_option("--copies", copies, "Stretched copies of each training object")->group(group)->type_name("N");
 }
 
 Settings SettingsArguments::settings() const {
-  Settings s = spincat::preset(preset);
+  return applied_to(spincat::preset(preset));
+}
+
+Settings SettingsArguments::applied_to(Settings s) const {
   override(s.seed, seed);
   override(s.prepare.points, points);
   override(s.prepare.spin_points, spin_points);

@@ -48,8 +48,11 @@ struct SettingsArguments {
   std::optional<int> copies;
 
   void add_to(CLI::App& command);
-  // Throws InputError naming what is out of range.
+  // Only those that decide about the spin images: no preset, nothing of encodings and judges.
+  void add_spin_options_to(CLI::App& command);
+  // The preset with what the user wants different. Throws InputError naming what is out of range.
   Settings settings() const;
+  Settings applied_to(Settings settings) const;
 };
 
 // Tells on standard error which objects were left out and why, in a few lines however many there are.

@@ -33,4 +33,5 @@ configure_package_config_file(cmake/spincatConfig.cmake.in ${PROJECT_BINARY_DIR}
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/spincatConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/spincatConfig.cmake ${PROJECT_BINARY_DIR}/spincatConfigVersion.cmake
               cmake/FindLibSVM.cmake cmake/FindTinyGLTFPacked.cmake
+              cmake/FindLodePNG.cmake
         DESTINATION ${package_dir})

@@ -8,6 +8,7 @@ packages_build=(
   libnanoflann-dev     # nearest neighbours
   libsvm-dev           # the solver of the judges' SVMs
   libtinygltf-dev      # glTF and GLB files
+  liblodepng-dev       # PNG files
   nlohmann-json3-dev   # model files, JSON
   libcli11-dev         # command line
   libfmt-dev           # formatting

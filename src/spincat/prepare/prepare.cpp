@@ -38,7 +38,7 @@ void check_range(const char* field, int value, int low, int high) {
 // The surface found for an object, in a frame of moderate size, before the spin points are chosen.
 struct Surface {
   SurfacePoints points;
-  double scale = 1.0;       // units of that frame in one unit of the file
+  Similarity frame;         // from the file to that frame
   double resolution = 0.0;  // in units of that frame
 };
 
@@ -59,9 +59,8 @@ SurfacePoints mesh_points(const Mesh& mesh, const PrepareSettings& settings, Ran
       return even_out(seen, count, random);
     }
   }
-  SurfacePoints points = settings.surface == SurfaceKind::vertices
-                             ? SurfacePoints{mesh.vertices, vertex_normals(mesh)}
-                             : surface_samples(mesh, count, random);
+  SurfacePoints points = settings.surface == SurfaceKind::vertices ? SurfacePoints{mesh.vertices, vertex_normals(mesh)}
+                                                                   : surface_samples(mesh, count, random);
   if (settings.orientation == NormalOrientation::outward) {
     orient_outwards(points.positions, points.normals);
   }
@@ -111,7 +110,7 @@ Surface cloud_surface(const PointCloud& given, const PrepareSettings& settings, 
   if (settings.surface != SurfaceKind::vertices) {
     points = even_out(points, static_cast<std::size_t>(settings.points), random);
   }
-  return {std::move(points), similarity.factor, cloud_resolution(cloud.points)};
+  return {std::move(points), similarity, cloud_resolution(cloud.points)};
 }
 
 bool all_at_one_place(std::span<const Vec3> points) {
@@ -128,7 +127,7 @@ Surface mesh_surface(const Mesh& given, const PrepareSettings& settings, Random&
   if (!has_area(mesh)) {
     return cloud_surface({given.vertices, {}, {}}, settings, random);
   }
-  return {mesh_points(mesh, settings, random), similarity.factor, mesh_resolution(mesh)};
+  return {mesh_points(mesh, settings, random), similarity, mesh_resolution(mesh)};
 }
 
 Surface find_surface(const Object& object, const PrepareSettings& settings, Random& random) {
@@ -180,7 +179,8 @@ PreparedObject prepare(const Object& object, const PrepareSettings& settings, st
   PreparedObject prepared;
   prepared.surface = oriented(surface.points, similarity);
   prepared.spin_points = choose_spin_points(surface.points, similarity, settings, random);
-  prepared.scale = surface.scale * similarity.factor;
+  prepared.scale = surface.frame.factor * similarity.factor;
+  prepared.centre = surface.frame.centre + similarity.centre / surface.frame.factor;
   prepared.resolution = surface.resolution * similarity.factor;
   return prepared;
 }

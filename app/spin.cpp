@@ -1,0 +1,174 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <memory>
+#include <vector>
+
+#include "commands.h"
+#include "options.h"
+#include "progress_bar.h"
+#include "spincat/error.h"
+#include "spincat/io/file.h"
+#include "spincat/io/npy.h"
+#include "spincat/io/output_file.h"
+#include "spincat/io/read_object.h"
+#include "spincat/pipeline/describe.h"
+#include "spincat/pipeline/setting_names.h"
+#include "spincat/report/picture.h"
+#include "spincat/spin/spin_images.h"
+
+namespace spincat::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SpinArguments {
+  fs::path file;
+  fs::path output;
+  fs::path points_output;
+  SettingsArguments settings;
+  std::string convention = "johnson";
+  RunOptions run;
+  int sheet = 64;
+};
+
+// What researchers expect unless they say otherwise: the object's own points, and bilinear images with bins of one mesh
+// resolution that see every angle.
+Settings spin_settings(const SpinArguments& arguments) {
+  Settings s = preset("paper");
+  s.spin.convention = choice_of<SpinConvention>("--convention", arguments.convention);
+  s.spin.support_angle = s.spin.convention == SpinConvention::pcl ? 90.0 : 180.0;
+  s.spin.bin_size = 1.0;
+  s.bin_size_unit = BinSizeUnit::resolution;
+  return arguments.settings.applied_to(s);
+}
+
+bool ends_in(const fs::path& file, std::string_view extension) {
+  std::string end = file.extension().string();
+  std::ranges::transform(end, end.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return end == extension;
+}
+
+// Some points of many, evenly chosen, in their order.
+OrientedPoints evenly_chosen(const OrientedPoints& points, std::size_t count) {
+  OrientedPoints chosen(std::min(count, points.size()));
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    const std::size_t i = k * points.size() / chosen.size();
+    chosen.set(k, points.position(i), points.normal(i));
+  }
+  return chosen;
+}
+
+std::string_view as_bytes(std::span<const float> values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
+}
+
+// Position (in the file's unit) and normal of each spin point, K x 6.
+void write_points(const fs::path& file, const OrientedPoints& points, const PreparedObject& object) {
+  OutputFile out(file);
+  out.write(npy_header(std::array<std::size_t, 2>{points.size(), 6}));
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Vec3 p = points.position(k).cast<double>() / object.scale + object.centre;
+    const Eigen::Vector3f n = points.normal(k);
+    out.write(as_bytes(std::array{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),
+                                  n.x(), n.y(), n.z()}));
+  }
+  out.commit();
+}
+
+void write_images(const SpinArguments& arguments, const OrientedPoints& surface, const OrientedPoints& spin_points,
+                  const SpinImageParams& params) {
+  const SpinImageShape shape = params.shape();
+  std::vector<std::size_t> sizes = {spin_points.size()};
+  if (shape.channels > 1) {
+    sizes.push_back(shape.channels);
+  }
+  sizes.insert(sizes.end(), {shape.rows, shape.columns});
+  OutputFile out(arguments.output);
+  out.write(npy_header(sizes));
+  ProgressBar bar(arguments.run);
+  const auto write_block = [&](const SpinImageBlock& block) {
+    out.write(as_bytes(block.images.values()));
+    bar.update("making spin images", block.first + block.images.count(), spin_points.size());
+  };
+  make_spin_images(surface, spin_points, params, write_block, arguments.run.thread_count());
+  out.commit();
+}
+
+void write_sheet(const SpinArguments& arguments, const OrientedPoints& surface, const OrientedPoints& spin_points,
+                 const SpinImageParams& params) {
+  const OrientedPoints chosen = evenly_chosen(spin_points, static_cast<std::size_t>(arguments.sheet));
+  const SpinImages images = make_spin_images(surface, chosen, params, arguments.run.thread_count());
+  OutputFile out(arguments.output);
+  out.write(encode_png(contact_sheet(images)));
+  out.commit();
+}
+
+PreparedObject prepared_object(const SpinArguments& arguments, const Settings& settings) {
+  try {
+    return prepare(read_object(arguments.file), settings.prepare, settings.seed);
+  } catch (const InputError& error) {
+    throw error.file().empty() ? InputError(arguments.file.string(), error.problem()) : error;
+  }
+}
+
+int run_spin(const SpinArguments& arguments) {
+  const Settings settings = spin_settings(arguments);
+  const bool png = ends_in(arguments.output, ".png");
+  if (!png && !ends_in(arguments.output, ".npy")) {
+    throw InputError(arguments.output.string(), "expected a name that ends in .npy or .png");
+  }
+  check_writable(arguments.output);  // before the work, not after it
+  if (!arguments.points_output.empty()) {
+    check_writable(arguments.points_output);
+  }
+  const PreparedObject object = prepared_object(arguments, settings);
+  const bool chosen = arguments.settings.spin_points.has_value();
+  const OrientedPoints& spin_points = chosen ? object.spin_points : object.surface;
+  SpinImageParams params = settings.spin;
+  params.bin_size = prepared_bin_size(object, settings);
+  if (png) {
+    write_sheet(arguments, object.surface, spin_points, params);
+  } else {
+    write_images(arguments, object.surface, spin_points, params);
+  }
+  if (!arguments.points_output.empty()) {
+    write_points(arguments.points_output, spin_points, object);
+  }
+  return 0;
+}
+
+}  // namespace
+
+Command add_spin(CLI::App& parent) {
+  auto arguments = std::make_shared<SpinArguments>();
+  CLI::App* command = parent.add_subcommand("spin", "Make the spin images themselves, for other tools");
+  command->footer(
+      "Example:\n"
+      "  spincat spin scan.ply -o images.npy --points-output points.npy    an image at every point\n"
+      "  spincat spin chair.obj -o sheet.png --surface samples --bin-size 0.1rel --image-width 20\n"
+      "Without --spin-points there is an image at every surface point, in the order of the file's points that are "
+      "used.");
+  command->add_option("file", arguments->file, "An object")->type_name("FILE")->required();
+  command->add_option("-o,--output", arguments->output, "A .npy file (K x rows x columns) or a .png contact sheet")
+      ->type_name("FILE")
+      ->required();
+  command
+      ->add_option("--points-output", arguments->points_output,
+                   "A .npy file for the spin points: K x 6, positions in the file's unit and normals")
+      ->type_name("FILE");
+  command->add_option("--sheet", arguments->sheet, "Images on a contact sheet, evenly chosen")
+      ->type_name("N")
+      ->check(CLI::Range(1, 10'000))
+      ->capture_default_str();
+  command->add_option("--convention", arguments->convention, "johnson or pcl")
+      ->type_name("NAME")
+      ->capture_default_str();
+  arguments->settings.add_spin_options_to(*command);
+  arguments->run.add_to(*command);
+  return [arguments] { return run_spin(*arguments); };
+}
+
+}  // namespace spincat::app

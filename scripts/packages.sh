@@ -23,3 +23,7 @@ packages_demo=(
 packages_test=(
   libgtest-dev
 )
+
+packages_bench=(
+  python3  # prints the table; the race against PCL takes part where libpcl-dev is installed, too
+)

@@ -46,6 +46,7 @@ FeatureVector describe(const Object& object, const Settings& settings, int copy,
                 : prepare(stretched_copy(object, copy, settings.stretch, settings.seed), settings.prepare, seed);
   SpinImageParams params = settings.spin;
   params.bin_size = prepared_bin_size(prepared, settings);
+  params.validate();  // an absolute size may vanish beside a huge object
   spent.prepare = watch.lap();
 
   const std::unique_ptr<Encoding> encoding = make_encoding(settings.encoding);

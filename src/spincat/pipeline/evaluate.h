@@ -16,7 +16,7 @@ struct EvaluateOptions {
   int splits = 20;             // repeated stratified splits, 1 to 10,000
   double test_fraction = 0.2;  // of each category's objects
   bool strict = false;         // an object that cannot be read ends the evaluation instead of being left out
-  int threads = 1;             // never changes the result
+  int threads = 1;             // 1 or more; never changes the result
 };
 
 // Mean and sample standard deviation over the splits.

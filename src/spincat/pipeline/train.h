@@ -13,7 +13,7 @@ namespace spincat {
 
 struct TrainOptions {
   bool strict = false;  // an object that cannot be read ends the training instead of being left out
-  int threads = 1;      // never changes the result
+  int threads = 1;      // 1 or more; never changes the result
 };
 
 struct TrainResult {

@@ -297,6 +297,9 @@ SurfacePoints external_surface(const Mesh& mesh, Random& random) {
     buffer.clear();
     for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
       const Triangle& t = mesh.triangles[f];
+      if (unit_normals[f].isZero()) {
+        continue;  // rounding could still give it a sliver of area in the image, and it has no normal to hand on
+      }
       buffer.draw(f, projected[t[0]], projected[t[1]], projected[t[2]]);
     }
     collect_visible(buffer, camera, unit_normals, points);

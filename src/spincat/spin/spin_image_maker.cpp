@@ -43,26 +43,26 @@ class SpinImageMaker::Engine {
 
   // One image that is wanted: of which spin point, and where to.
   struct Wanted {
-    std::size_t spin_point;
+    SpinPoint p;
     std::span<float> image;
   };
 
-  void make(const OrientedPoints& spin_points, std::vector<Wanted> wanted, std::size_t threads) const {
-    sort_in_space(spin_points, wanted);
+  void make(std::vector<Wanted> wanted, std::size_t threads) const {
+    sort_in_space(wanted);
     constexpr std::size_t kFewImages = 4;  // a thread's, below which the threads share out the surface
     if (threads > 1 && wanted.size() < kFewImages * threads) {
-      make_sharing_surface(spin_points, wanted, threads);
+      make_sharing_surface(wanted, threads);
     } else {
-      make_sharing_images(spin_points, wanted, threads);
+      make_sharing_images(wanted, threads);
     }
   }
 
  private:
   // Spin points that are neighbours see the same part of the surface: one after the other they find it in the cache.
-  void sort_in_space(const OrientedPoints& spin_points, std::vector<Wanted>& wanted) const {
+  void sort_in_space(std::vector<Wanted>& wanted) const {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> order(wanted.size());
     for (std::uint32_t k = 0; k < order.size(); ++k) {
-      const SpinPoint p = spin_point(spin_points, wanted[k].spin_point);
+      const SpinPoint& p = wanted[k].p;
       order[k] = {surface_.curve_key(p.x, p.y, p.z), k};
     }
     std::ranges::sort(order);
@@ -79,37 +79,34 @@ class SpinImageMaker::Engine {
     return std::clamp<std::size_t>(kSumsBytes / (layout_.size * sizeof(std::int64_t)), 1, kMostImages);
   }
 
-  void make_sharing_images(const OrientedPoints& spin_points, std::span<const Wanted> wanted,
-                           std::size_t threads) const {
+  void make_sharing_images(std::span<const Wanted> wanted, std::size_t threads) const {
     const std::size_t share = (wanted.size() + threads - 1) / threads;
     const auto make_share = [&](std::size_t step, std::size_t) {
       const std::size_t begin = std::min(step * share, wanted.size());
-      make_run(spin_points, wanted.subspan(begin, std::min(share, wanted.size() - begin)));
+      make_run(wanted.subspan(begin, std::min(share, wanted.size() - begin)));
       return true;
     };
     InOrder<bool>(threads, threads, make_share, [](std::size_t, bool) {});
   }
 
-  void make_run(const OrientedPoints& spin_points, std::span<const Wanted> wanted) const {
+  void make_run(std::span<const Wanted> wanted) const {
     Sums sums(std::min(images_at_once(), wanted.size()) * layout_.size, 0);
     while (!wanted.empty()) {
       const auto group = wanted.first(std::min(images_at_once(), wanted.size()));
-      sum_tiles(spin_points, group, 0, tiles(), sums.data());
+      sum_tiles(group, 0, tiles(), sums.data());
       finish(group, sums);
       wanted = wanted.subspan(group.size());
     }
   }
 
-  void make_sharing_surface(const OrientedPoints& spin_points, std::span<const Wanted> wanted,
-                            std::size_t threads) const {
+  void make_sharing_surface(std::span<const Wanted> wanted, std::size_t threads) const {
     while (!wanted.empty()) {
       const auto group = wanted.first(std::min(images_at_once(), wanted.size()));
       const std::size_t slice = (tiles() + threads - 1) / threads;
       Sums sums(group.size() * layout_.size, 0);
       const auto make_slice = [&](std::size_t step, std::size_t) {
         Sums part(sums.size(), 0);
-        sum_tiles(spin_points, group, std::min(step * slice, tiles()), std::min((step + 1) * slice, tiles()),
-                  part.data());
+        sum_tiles(group, std::min(step * slice, tiles()), std::min((step + 1) * slice, tiles()), part.data());
         return part;
       };
       const auto add = [&](std::size_t, Sums& part) {
@@ -143,22 +140,24 @@ class SpinImageMaker::Engine {
   }
 
   // Adds what the tiles [begin, end) contribute to the images of `group`, to one set of sums an image.
-  void sum_tiles(const OrientedPoints& spin_points, std::span<const Wanted> group, std::size_t begin, std::size_t end,
-                 std::int64_t* sums) const {
-    std::vector<TileList> seen(group.size());
-    std::vector<std::size_t> done(group.size(), 0);
+  void sum_tiles(std::span<const Wanted> group, std::size_t begin, std::size_t end, std::int64_t* sums) const {
+    std::vector<TileList> many(group.size());  // those of images that see much of the surface
+    bool any = false;
     for (std::size_t g = 0; g < group.size(); ++g) {
-      seen[g] = seen_tiles(spin_point(spin_points, group[g].spin_point), begin, end);
+      many[g] = seen_tiles(group[g].p, begin, end);
+      if (many[g].size() <= kTilesAtOnce) {
+        sum_portion(group[g].p, many[g], sums + g * layout_.size);
+        many[g].clear();
+      }
+      any = any || !many[g].empty();
     }
-    for (std::size_t portion = 0; portion < portions(); ++portion) {
+    std::vector<std::size_t> done(group.size(), 0);
+    for (std::size_t portion = 0; any && portion < portions(); ++portion) {
       for (std::size_t g = 0; g < group.size(); ++g) {
-        const std::span rest = std::span(seen[g]).subspan(done[g]);
-        const bool few = seen[g].size() <= kTilesAtOnce;
-        const auto end_of_portion =
-            few ? rest.end() : std::ranges::find_if(rest, [&](auto tile) { return tile % portions() != portion; });
-        sum_portion(spin_point(spin_points, group[g].spin_point), {rest.begin(), end_of_portion},
-                    sums + g * layout_.size);
-        done[g] += static_cast<std::size_t>(end_of_portion - rest.begin());
+        const std::span rest = std::span(many[g]).subspan(done[g]);
+        const auto last = std::ranges::find_if(rest, [&](auto tile) { return tile % portions() != portion; });
+        sum_portion(group[g].p, {rest.begin(), last}, sums + g * layout_.size);
+        done[g] += static_cast<std::size_t>(last - rest.begin());
       }
     }
   }
@@ -191,9 +190,9 @@ void SpinImageMaker::make(const OrientedPoints& spin_points, std::size_t first, 
                           std::size_t threads) const {
   std::vector<Engine::Wanted> wanted;
   for (std::size_t k = 0; k < images.size() / shape().size(); ++k) {
-    wanted.push_back({first + k, images.subspan(k * shape().size(), shape().size())});
+    wanted.push_back({spin_point(spin_points, first + k), images.subspan(k * shape().size(), shape().size())});
   }
-  engine_->make(spin_points, std::move(wanted), threads);
+  engine_->make(std::move(wanted), threads);
 }
 
 void SpinImageMaker::make(const OrientedPoints& spin_points, std::span<SpinImageBlock> blocks,
@@ -201,10 +200,10 @@ void SpinImageMaker::make(const OrientedPoints& spin_points, std::span<SpinImage
   std::vector<Engine::Wanted> wanted;
   for (SpinImageBlock& block : blocks) {
     for (std::size_t k = 0; k < block.images.count(); ++k) {
-      wanted.push_back({block.first + k, block.images.image(k)});
+      wanted.push_back({spin_point(spin_points, block.first + k), block.images.image(k)});
     }
   }
-  engine_->make(spin_points, std::move(wanted), threads);
+  engine_->make(std::move(wanted), threads);
 }
 
 }  // namespace spincat

@@ -46,7 +46,7 @@ using SpinImageConsumer = std::function<void(const SpinImageBlock&)>;
 inline constexpr std::size_t kSpinImageBlock = 64;
 
 // Makes the image of every spin point from all surface points, on `threads` threads (1 or more), and hands them on in
-// order, block by block, on the calling thread. Blocks of 8 MB together are made at a time (one block where that is
+// order, block by block, on the calling thread. Blocks of 16 MB together are made at a time (one block where that is
 // larger), and never more than two such lots a thread are held. The same bytes for any number of threads. What the
 // consumer throws ends the work and arrives here. Throws InputError when the environment variable SPINCAT_SIMD names no
 // path of this machine (spin_image_maker.h). Precondition: params are valid. Source: paper, equations 1 and 2.

@@ -24,10 +24,10 @@ function(expect_text text pattern)
   endif()
 endfunction()
 
-# The defaults are plain CMake's: the environment's flags are not passed on.
+# The defaults are plain CMake's (but Ninja, which is what a bare machine has): the environment's flags are not passed on.
 function(build_against_prefix source binary)
   expect(0 ${CMAKE_COMMAND} -E env --unset=CXXFLAGS --unset=LDFLAGS ${CMAKE_COMMAND} -S ${source} -B ${binary}
-    -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${CXX} ${ARGN})
+    -G Ninja -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${CXX} ${ARGN})
   expect(0 ${CMAKE_COMMAND} --build ${binary} --parallel 2)
 endfunction()
 

@@ -10,6 +10,7 @@
 
 #include "commands.h"
 #include "interrupt.h"
+#include "messages.h"
 #include "options.h"
 #include "progress_bar.h"
 #include "spincat/error.h"
@@ -31,30 +32,44 @@ struct ClassifyArguments {
   RunOptions run;
 };
 
-// Files as they are; folders stand for all object files below them, sorted.
-std::vector<fs::path> expand_folders(const std::vector<fs::path>& inputs) {
-  std::vector<fs::path> files;
-  for (const fs::path& input : inputs) {
-    std::error_code error;
-    if (!fs::is_directory(input, error)) {
-      files.push_back(input);
-      continue;
+// A file to be named, or what is wrong with a folder that should have held some.
+struct Input {
+  fs::path file;
+  std::string problem;
+};
+
+// All object files below a folder, sorted; an input with a problem where there is none or it cannot be read.
+std::vector<Input> files_below(const fs::path& folder) {
+  std::vector<Input> files;
+  std::error_code error;
+  for (fs::recursive_directory_iterator it(folder, error), end; it != end && !error; it.increment(error)) {
+    std::error_code ignored;
+    if (it->is_regular_file(ignored) && is_object_file(it->path())) {
+      files.push_back({it->path(), {}});
     }
-    const std::size_t before = files.size();
-    for (fs::recursive_directory_iterator it(input, error), end; it != end && !error; it.increment(error)) {
-      if (it->is_regular_file(error) && is_object_file(it->path())) {
-        files.push_back(it->path());
-      }
-    }
-    if (error) {
-      throw InputError(input.string(), error.message());
-    }
-    if (files.size() == before) {
-      throw InputError(input.string(), "holds no object files");
-    }
-    std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
+  }
+  std::ranges::sort(files, {}, &Input::file);
+  if (error) {
+    files.push_back({folder, "a folder in it cannot be read: " + error.message()});
+  } else if (files.empty()) {
+    files.push_back({folder, "holds no object files"});
   }
   return files;
+}
+
+// Files as they are; folders stand for all object files below them.
+std::vector<Input> expand_folders(const std::vector<fs::path>& arguments) {
+  std::vector<Input> inputs;
+  for (const fs::path& argument : arguments) {
+    std::error_code error;
+    if (fs::is_directory(argument, error)) {
+      const std::vector<Input> below = files_below(argument);
+      inputs.insert(inputs.end(), below.begin(), below.end());
+    } else {
+      inputs.push_back({argument, {}});
+    }
+  }
+  return inputs;
 }
 
 // What became of one file.
@@ -64,7 +79,11 @@ struct Answer {
   bool done = false;
 };
 
-Answer answer_for(const Model& model, const fs::path& file) {
+Answer answer_for(const Model& model, const Input& input) {
+  const fs::path& file = input.file;
+  if (!input.problem.empty()) {
+    return {{}, file.string() + ": " + input.problem, true};
+  }
   try {
     return {classify_file(model, file), {}, true};
   } catch (const std::bad_alloc&) {
@@ -77,11 +96,11 @@ Answer answer_for(const Model& model, const fs::path& file) {
 // Prints answers as people or programs want them. Columns are as wide as the widest file and category.
 class AnswerPrinter {
  public:
-  AnswerPrinter(const Model& model, const std::vector<fs::path>& files, const ClassifyArguments& arguments)
+  AnswerPrinter(const Model& model, const std::vector<Input>& files, const ClassifyArguments& arguments)
       : model_(model), arguments_(arguments) {
     constexpr std::size_t kWidestFile = 48;
-    for (const fs::path& file : files) {
-      file_width_ = std::max(file_width_, std::min(kWidestFile, text_width(printable(file.string()))));
+    for (const Input& input : files) {
+      file_width_ = std::max(file_width_, std::min(kWidestFile, text_width(printable(input.file.string()))));
     }
     for (const std::string& category : model.categories) {
       category_width_ = std::max(category_width_, text_width(printable(category)));
@@ -104,7 +123,7 @@ class AnswerPrinter {
       fmt::print("{}\n", error_json(file.string(), error));
     } else {
       std::fflush(stdout);  // keeps both streams in order where they meet
-      fmt::print(stderr, "spincat: {}\n", printable(error));
+      message(error);
     }
   }
 
@@ -144,7 +163,7 @@ class AnswerPrinter {
 
 // Classifies on all threads and prints in the order of the files, each as soon as those before it are printed.
 // Returns how many could not be classified.
-std::size_t classify_all(const Model& model, const std::vector<fs::path>& files, const ClassifyArguments& arguments) {
+std::size_t classify_all(const Model& model, const std::vector<Input>& files, const ClassifyArguments& arguments) {
   AnswerPrinter printer(model, files, arguments);
   ProgressBar bar(arguments.run);
   std::vector<Answer> answers(files.size());
@@ -159,7 +178,7 @@ std::size_t classify_all(const Model& model, const std::vector<fs::path>& files,
     for (; printed < files.size() && answers[printed].done; ++printed) {
       failed += answers[printed].classification ? 0 : 1;
       bar.wipe();
-      printer.print(files[printed], answers[printed]);
+      printer.print(files[printed].file, answers[printed]);
       answers[printed] = {};  // a hundred thousand ballots need not be kept
     }
     bar.update("naming objects", printed, files.size());
@@ -169,11 +188,11 @@ std::size_t classify_all(const Model& model, const std::vector<fs::path>& files,
 
 int run_classify(const ClassifyArguments& arguments) {
   const Model model = read_model(arguments.model);
-  const std::vector<fs::path> files = expand_folders(arguments.inputs);
+  const std::vector<Input> files = expand_folders(arguments.inputs);
   const std::size_t failed = classify_all(model, files, arguments);
   if (failed > 0 && files.size() > 1 && !arguments.run.quiet) {
     std::fflush(stdout);
-    fmt::print(stderr, "spincat: {} of {} objects could not be named\n", failed, files.size());
+    message(fmt::format("{} of {} objects could not be named", failed, files.size()));
   }
   return failed > 0 ? 2 : 0;
 }

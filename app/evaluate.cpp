@@ -1,7 +1,6 @@
 #include "spincat/pipeline/evaluate.h"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <memory>
@@ -11,9 +10,12 @@
 #include "progress_bar.h"
 #include "spincat/report/json.h"
 #include "spincat/report/text.h"
+#include "terminal.h"
 
 namespace spincat::app {
 namespace {
+
+constexpr std::size_t kPipeWidth = 160;  // a pipe is taken to be wide
 
 struct EvaluateArguments {
   DatasetArguments dataset;
@@ -21,15 +23,6 @@ struct EvaluateArguments {
   EvaluateOptions options;
   RunOptions run;
 };
-
-// Columns of the terminal behind standard output; a pipe is taken to be wide.
-std::size_t output_width() {
-  winsize size{};
-  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
-    return size.ws_col;
-  }
-  return 160;
-}
 
 int run_evaluate(const EvaluateArguments& arguments) {
   const Settings settings = arguments.settings.settings();
@@ -46,7 +39,7 @@ int run_evaluate(const EvaluateArguments& arguments) {
   if (arguments.run.json) {
     fmt::print("{}\n", evaluation_json(evaluation, settings));
   } else {
-    fmt::print("{}", evaluation_text(evaluation, output_width()));
+    fmt::print("{}", evaluation_text(evaluation, terminal_width(STDOUT_FILENO, kPipeWidth)));
   }
   return 0;
 }

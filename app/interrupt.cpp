@@ -18,7 +18,11 @@ void catch_interrupts() {
   struct sigaction action {};
   action.sa_handler = remember_signal;
   action.sa_flags = SA_RESETHAND | SA_RESTART;
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction inherited {};
+    if (sigaction(signal, nullptr, &inherited) == 0 && inherited.sa_handler == SIG_IGN) {
+      continue;  // nohup and the like: the caller does not want this signal to end us
+    }
     sigaction(signal, &action, nullptr);
   }
 }

@@ -1,4 +1,4 @@
-// Ctrl-C and SIGTERM: end cleanly at the next safe place.
+// Ctrl-C, SIGTERM and a closed terminal: end cleanly at the next safe place.
 #pragma once
 
 namespace spincat::app {
@@ -8,7 +8,7 @@ struct Interrupted {
   int signal = 0;
 };
 
-// From now on the first SIGINT or SIGTERM is only remembered; a second one ends the process at once.
+// From now on the first SIGINT, SIGTERM or SIGHUP is only remembered; a second one ends the process at once.
 void catch_interrupts();
 
 // Throws Interrupted when a signal has come.

@@ -15,8 +15,8 @@
 
 #include "commands.h"
 #include "interrupt.h"
+#include "messages.h"
 #include "spincat/error.h"
-#include "spincat/report/text_table.h"
 
 namespace {
 
@@ -24,7 +24,7 @@ using namespace spincat;       // NOLINT(google-build-using-namespace)
 using namespace spincat::app;  // NOLINT(google-build-using-namespace)
 
 int fail(const std::string& problem, int code) {
-  fmt::print(stderr, "spincat: {}\n", printable(problem));
+  message(problem);
   return code;
 }
 
@@ -81,6 +81,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  fill_closed_streams();
   catch_interrupts();
   try {
     return run(argc, argv);

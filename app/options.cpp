@@ -4,14 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <charconv>
-#include <cstdio>
 #include <string_view>
 
+#include "messages.h"
 #include "spincat/encode/encoding.h"
 #include "spincat/error.h"
 #include "spincat/parallel/for_each.h"
 #include "spincat/pipeline/setting_names.h"
-#include "spincat/report/text_table.h"
 
 namespace spincat::app {
 namespace {
@@ -51,6 +50,7 @@ void override(T& setting, const std::optional<T>& wanted) {
 void RunOptions::add_to(CLI::App& command) {
   command.add_option("--threads", threads, "Threads to use; 0 means one for each processor")
       ->check(CLI::Range(0, 4096))
+      ->type_name("N")
       ->capture_default_str();
   command.add_flag("--json", json, "Print JSON for programs instead of a table");
   command.add_flag("--quiet", quiet, "No progress and no notes on standard error, only errors");
@@ -80,7 +80,13 @@ void SettingsArguments::add_spin_options_to(CLI::App& command) {
   const auto add = [&](const char* name, auto& variable, const std::string& help, const char* type) {
     command.add_option(name, variable, help)->group("Settings")->type_name(type);
   };
-  add("--seed", seed, "Of every random choice (default 1)", "N");
+  command.add_option("--seed", seed, "Of every random choice (default 1)")
+      ->group("Settings")
+      ->type_name("N")
+      ->check([](const std::string& text) {  // CLI11 would wrap -1 around
+        const bool whole = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+        return whole ? std::string() : "expected a whole number from 0, not " + text;
+      });
   add("--surface", surface, "Points that stand for a mesh: vertices, samples or external", "KIND");
   add("--points", points, "Surface points of an object", "N");
   add("--spin-points", spin_points, "Spin points (and images) of an object, chosen at random", "N");
@@ -140,11 +146,10 @@ void report_skipped(const std::vector<SkippedObject>& skipped, const RunOptions&
     return;
   }
   for (std::size_t i = 0; i < skipped.size() && i < kMostLines; ++i) {
-    fmt::print(stderr, "spincat: {}: {} (skipped)\n", printable(skipped[i].file.string()),
-               printable(skipped[i].reason));
+    message(fmt::format("{}: {} (skipped)", skipped[i].file.string(), skipped[i].reason));
   }
   if (skipped.size() > kMostLines) {
-    fmt::print(stderr, "spincat: {} more were skipped (--json lists them all)\n", skipped.size() - kMostLines);
+    message(fmt::format("{} more were skipped (--json lists them all)", skipped.size() - kMostLines));
   }
 }
 

@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdio>
-
 #include "interrupt.h"
+#include "messages.h"
 #include "spincat/report/text.h"
+#include "spincat/report/text_table.h"
+#include "terminal.h"
 
 namespace spincat::app {
 namespace {
@@ -26,7 +27,8 @@ std::string bar_line(std::string_view stage, std::size_t done, std::size_t total
 
 }  // namespace
 
-ProgressBar::ProgressBar(const RunOptions& run) : enabled_(!run.quiet && isatty(STDERR_FILENO) == 1) {}
+ProgressBar::ProgressBar(const RunOptions& run)
+    : enabled_(!run.quiet && isatty(STDERR_FILENO) == 1), width_(terminal_width(STDERR_FILENO, 80)) {}
 
 ProgressBar::~ProgressBar() {
   wipe();
@@ -49,14 +51,12 @@ void ProgressBar::update(std::string_view stage, std::size_t done, std::size_t t
   last_draw_ = now;
   drawn_ = true;
   const std::chrono::duration<double> spent = now - stage_start_;
-  fmt::print(stderr, "\r\033[K{}", bar_line(stage, done, total, spent.count()));
-  std::fflush(stderr);
+  print_to_stderr("\r\033[K" + cut_in_the_middle(bar_line(stage, done, total, spent.count()), width_ - 1));
 }
 
 void ProgressBar::wipe() {
   if (drawn_) {
-    fmt::print(stderr, "\r\033[K");
-    std::fflush(stderr);
+    print_to_stderr("\r\033[K");
     drawn_ = false;
   }
 }

@@ -16,7 +16,9 @@
 #include "spincat/io/read_object.h"
 #include "spincat/pipeline/describe.h"
 #include "spincat/pipeline/setting_names.h"
+#include "spincat/report/json.h"
 #include "spincat/report/picture.h"
+#include "spincat/report/text_table.h"
 #include "spincat/spin/spin_images.h"
 
 namespace spincat::app {
@@ -100,7 +102,15 @@ void write_images(const SpinArguments& arguments, const OrientedPoints& surface,
 void write_sheet(const SpinArguments& arguments, const OrientedPoints& surface, const OrientedPoints& spin_points,
                  const SpinImageParams& params) {
   const OrientedPoints chosen = evenly_chosen(spin_points, static_cast<std::size_t>(arguments.sheet));
-  const SpinImages images = make_spin_images(surface, chosen, params, arguments.run.thread_count());
+  SpinImages images(chosen.size(), params.shape());
+  ProgressBar bar(arguments.run);
+  const auto keep = [&](const SpinImageBlock& block) {
+    for (std::size_t k = 0; k < block.images.count(); ++k) {
+      std::ranges::copy(block.images.image(k), images.image(block.first + k).begin());
+    }
+    bar.update("making spin images", block.first + block.images.count(), chosen.size());
+  };
+  make_spin_images(surface, chosen, params, keep, arguments.run.thread_count());
   OutputFile out(arguments.output);
   out.write(encode_png(contact_sheet(images)));
   out.commit();
@@ -114,16 +124,29 @@ PreparedObject prepared_object(const SpinArguments& arguments, const Settings& s
   }
 }
 
+// Before the work, not after it.
+void check_outputs(const SpinArguments& arguments) {
+  check_writable(arguments.output);
+  if (arguments.points_output.empty()) {
+    return;
+  }
+  if (!ends_in(arguments.points_output, ".npy")) {
+    throw InputError(arguments.points_output.string(), "expected a name that ends in .npy");
+  }
+  if (fs::weakly_canonical(fs::absolute(arguments.points_output)) ==
+      fs::weakly_canonical(fs::absolute(arguments.output))) {
+    throw InputError(arguments.output.string(), "is the name for both the images and the points");
+  }
+  check_writable(arguments.points_output);
+}
+
 int run_spin(const SpinArguments& arguments) {
   const Settings settings = spin_settings(arguments);
   const bool png = ends_in(arguments.output, ".png");
   if (!png && !ends_in(arguments.output, ".npy")) {
     throw InputError(arguments.output.string(), "expected a name that ends in .npy or .png");
   }
-  check_writable(arguments.output);  // before the work, not after it
-  if (!arguments.points_output.empty()) {
-    check_writable(arguments.points_output);
-  }
+  check_outputs(arguments);
   const PreparedObject object = prepared_object(arguments, settings);
   const bool chosen = arguments.settings.spin_points.has_value();
   const OrientedPoints& spin_points = chosen ? object.spin_points : object.surface;
@@ -136,6 +159,16 @@ int run_spin(const SpinArguments& arguments) {
   }
   if (!arguments.points_output.empty()) {
     write_points(arguments.points_output, spin_points, object);
+  }
+  if (arguments.output == "/dev/stdout") {
+    return 0;  // the result went there; nothing must follow it
+  }
+  if (arguments.run.json) {
+    fmt::print("{}\n", spin_json(arguments.output.string(), spin_points.size(), params, object));
+  } else {
+    fmt::print("wrote {}: {} spin points, images of {} x {} from {} surface points\n",
+               printable(arguments.output.string()), spin_points.size(), params.shape().rows, params.shape().columns,
+               object.surface.size());
   }
   return 0;
 }
@@ -161,7 +194,8 @@ Command add_spin(CLI::App& parent) {
       ->type_name("FILE");
   command->add_option("--sheet", arguments->sheet, "Images on a contact sheet, evenly chosen")
       ->type_name("N")
-      ->check(CLI::Range(1, 10'000))
+      ->check(CLI::Range(1, 1'000))
+      ->type_name("N")
       ->capture_default_str();
   command->add_option("--convention", arguments->convention, "johnson or pcl")
       ->type_name("NAME")

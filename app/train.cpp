@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <algorithm>
 #include <memory>
 
 #include "commands.h"
+#include "messages.h"
 #include "options.h"
 #include "progress_bar.h"
 #include "spincat/io/file.h"
@@ -33,8 +34,14 @@ Dataset dataset_to_learn_from(const TrainArguments& arguments) {
   Dataset part = training_part(whole);
   const std::size_t held_back = whole.objects.size() - part.objects.size();
   if (held_back > 0 && !arguments.run.quiet) {
-    fmt::print(stderr, "spincat: {} objects of the data set's test split are held back (--all learns from them, too)\n",
-               held_back);
+    message(fmt::format("{} of {} objects are in the data set's test split and held back (--all learns from them, too)",
+                        held_back, whole.objects.size()));
+  }
+  for (const std::string& category : whole.categories) {
+    if (!std::ranges::binary_search(part.categories, category)) {
+      message(fmt::format("category '{}' has objects in the test split only: it is not learned (--all learns it, too)",
+                          category));
+    }
   }
   return part;
 }
@@ -51,6 +58,9 @@ int run_train(const TrainArguments& arguments) {
   }
   write_model(arguments.output, result.model);
   report_skipped(result.skipped, arguments.run);
+  if (arguments.output == "/dev/stdout") {
+    return 0;  // the model went there; nothing must follow it
+  }
   if (arguments.run.json) {
     fmt::print("{}\n", training_json(arguments.output.string(), result));
   } else {

@@ -190,6 +190,7 @@ TEST_F(Command, WrongUseAndBadInputAreOneLineAndExitTwo) {
   dir_.write("same.xyz", "1 1 1\n1 1 1\n");
   dir_.write("one/box/a.off", box_off(1, 1, 1));
   dir_.write("one/box/b.off", box_off(1, 2, 1));
+  dir_.write("split.csv", "path,category,split\nnew-cone.off,cone,Train\n");
   fs::create_directory(dir_.path() / "empty");
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"", "subcommand"},
@@ -217,6 +218,10 @@ TEST_F(Command, WrongUseAndBadInputAreOneLineAndExitTwo) {
       {"classify shapes.spincat same.xyz", "same.xyz: all its points are at one place"},
       {"classify shapes.spincat empty", "empty: holds no object files"},
       {"spin new-cone.off -o images.txt", "images.txt: expected a name that ends in .npy or .png"},
+      {"spin new-cone.off -o a.npy --points-output ./a.npy", "a.npy: is the name for both"},
+      {"spin new-cone.off -o a.npy --points-output a.txt", "a.txt: expected a name that ends in .npy"},
+      {"train shapes -o x.spincat --seed -1", "--seed"},
+      {"train split.csv -o x.spincat", "split.csv: line 2: split 'Train' is not known"},
       {"spin absent.off -o images.npy", "absent.off: no such file"},
       {"spin new-cone.off -o images.npy --convention mine", "--convention 'mine'"},
       {"spin new-cone.off -o nowhere/images.npy", "nowhere"},
@@ -272,6 +277,43 @@ TEST_F(Command, ABatchNamesTheGoodAndReportsTheBadOnce) {
   EXPECT_EQ(lines(result.err)[1], "spincat: 1 of 3 objects could not be named");
 }
 
+TEST_F(Command, ClosedStreamsAreNoReasonToCrash) {
+  train();
+  EXPECT_EQ(run("classify shapes.spincat absent.off", "2>&-").code, 2);
+  EXPECT_EQ(run("classify shapes.spincat absent.off", "2>/dev/full").code, 2);
+  EXPECT_EQ(run("classify shapes.spincat new-cone.off", ">&-").code, 1);  // the answer did not arrive
+  EXPECT_EQ(run("train shapes -o x.spincat --copies 0 --points 256 --spin-points 32", ">&- 2>&-").code, 1);
+  EXPECT_EQ(run("info x.spincat").code, 0);  // no message went into the model
+}
+
+TEST_F(Command, StrictMindsWhatTheDataSetItselfIsMissing) {
+  make_shapes();
+  dir_.write("list.csv", "path,category\nshapes/box/0.off,box\nshapes/cone/0.off,cone\nabsent.off,cone\n");
+  const std::string small = " --copies 0 --points 256 --spin-points 32";
+  EXPECT_EQ(run("train list.csv -o x.spincat" + small).code, 0);
+  const Result strict = run("train list.csv -o y.spincat --strict" + small);
+  EXPECT_EQ(strict.code, 2);
+  EXPECT_EQ(strict.err, "spincat: absent.off: no such file\n");
+}
+
+TEST_F(Command, ACategoryThatIsOnlyTestedIsNamed) {
+  make_shapes();
+  dir_.write("list.csv",
+             "path,category,split\nshapes/box/0.off,box,train\nshapes/cone/0.off,cone,train\nnew-cone.off,new,test\n");
+  const Result result = run("train list.csv -o x.spincat --copies 0 --points 256 --spin-points 32");
+  EXPECT_EQ(result.code, 0);
+  ASSERT_EQ(lines(result.err).size(), 2U) << result.err;
+  EXPECT_NE(lines(result.err)[1].find("category 'new' has objects in the test split only"), std::string::npos);
+}
+
+TEST_F(Command, AModelOnStandardOutputIsNothingButTheModel) {
+  make_shapes();
+  const Result model = run("train shapes -o /dev/stdout --copies 0 --points 256 --spin-points 32");
+  ASSERT_EQ(model.code, 0);
+  dir_.write("piped.spincat", model.out);
+  EXPECT_EQ(run("info piped.spincat").code, 0);
+}
+
 TEST_F(Command, ADamagedOrNewerModelIsRefused) {
   train();
   std::string bytes = contents(dir_.path() / "shapes.spincat");
@@ -321,7 +363,8 @@ TEST_F(Command, SpinWritesAnImageAtEveryPoint) {
   dir_.write("pair.xyz", "10 0 0 0 0 1\n11 0 0 0 0 1\n");
   const Result result = run("spin pair.xyz -o pair.npy --points-output points.npy --image-width 4 --bin-size 0.5abs");
   ASSERT_EQ(result.code, 0) << result.err;
-  EXPECT_EQ(result.out + result.err, "");
+  EXPECT_EQ(result.out, "wrote pair.npy: 2 spin points, images of 4 x 4 from 2 surface points\n");
+  EXPECT_EQ(result.err, "");
   EXPECT_NE(contents(dir_.path() / "pair.npy").find("'shape': (2, 4, 4, )"), std::string::npos);
   const std::vector<float> images = npy_values(dir_.path() / "pair.npy");
   ASSERT_EQ(images.size(), 32U);

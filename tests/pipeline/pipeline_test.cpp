@@ -249,7 +249,7 @@ TEST(Train, RefusesFewerThanTwoCategories) {
   one.categories.resize(1);
   std::erase_if(one.objects, [](const DatasetObject& object) { return object.category != 0; });
   EXPECT_EQ(input_error([&] { train(one, small_settings(), {}); }),
-            one.name + ": has 1 categories, expected at least 2");
+            one.name + ": two or more categories are needed to learn from");
   EXPECT_NE(input_error([&] { train({}, small_settings(), {}); }), "no error");
 }
 

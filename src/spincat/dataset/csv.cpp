@@ -1,10 +1,31 @@
 // A data set listed by a CSV file: path,category[,split].
+#include <fmt/format.h>
+
+#include <string>
+#include <string_view>
 #include <unordered_map>
 
 #include "spincat/dataset/csv_reader.h"
 #include "spincat/dataset/listing.h"
+#include "spincat/dataset/words.h"
+#include "spincat/error.h"
 
 namespace spincat {
+namespace {
+
+// A misspelt "Train" must not quietly hold objects back from training.
+std::string checked_split(const std::filesystem::path& file, const CsvRow& row, std::size_t column) {
+  const std::string& split = row.fields[column];
+  for (const std::string_view known : {"", "train", "test", "val", "validation"}) {
+    if (split == known) {
+      return split;
+    }
+  }
+  throw InputError(file.string(), at_line(row.line, fmt::format("split {} is not known (train, test, val, validation)",
+                                                                in_quotes(split))));
+}
+
+}  // namespace
 
 Listing list_csv(const std::filesystem::path& file, const std::filesystem::path& models) {
   const CsvTable table = read_csv_table(file);
@@ -22,7 +43,8 @@ Listing list_csv(const std::filesystem::path& file, const std::filesystem::path&
     if (is_new) {
       listing.classes.push_back({name, std::nullopt});
     }
-    listing.objects.push_back({folder / table.filled(row, path), found->second, split ? row.fields[*split] : ""});
+    listing.objects.push_back(
+        {folder / table.filled(row, path), found->second, split ? checked_split(file, row, *split) : ""});
   }
   return listing;
 }

@@ -71,7 +71,7 @@ void leave_out_shorter(const Dataset& dataset, bool strict, std::vector<Describe
 // Throws when the objects that are left can teach nothing.
 void check_categories(const FeatureTable& table, const std::string& dataset) {
   if (table.categories.size() < 2) {
-    throw InputError(dataset, fmt::format("has {} categories, expected at least 2", table.categories.size()));
+    throw InputError(dataset, "two or more categories are needed to learn from");
   }
   std::vector<bool> present(table.categories.size(), false);
   for (const DatasetObject& object : table.objects) {
@@ -158,6 +158,9 @@ std::span<const float> FeatureTable::features_of(std::uint32_t object) const {
 FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, bool strict, int threads,
                               const Progress& progress) {
   settings.validate();
+  if (strict && !dataset.skipped.empty()) {
+    throw InputError(dataset.skipped.front().file.string(), dataset.skipped.front().reason);
+  }
   std::vector<Described> described(dataset.objects.size());
   std::mutex mutex;
   std::size_t done = 0;

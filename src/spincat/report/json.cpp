@@ -123,4 +123,16 @@ std::string object_json(const std::string& file, const ObjectFacts& facts) {
                  {"repeated_triangles", facts.repeated_triangles}}}});
 }
 
+std::string spin_json(const std::string& file, std::size_t spin_points, const SpinImageParams& params,
+                      const PreparedObject& object) {
+  const SpinImageShape shape = params.shape();
+  return line({{"file", file},
+               {"spin_points", spin_points},
+               {"surface_points", object.surface.size()},
+               {"channels", shape.channels},
+               {"rows", shape.rows},
+               {"columns", shape.columns},
+               {"bin_size", params.bin_size / object.scale}});
+}
+
 }  // namespace spincat

@@ -1,7 +1,7 @@
 // Results as JSON for programs; the keys are a promise (docs/json.md).
 #pragma once
 
-#include <optional>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -10,6 +10,8 @@
 #include "spincat/pipeline/model.h"
 #include "spincat/pipeline/train.h"
 #include "spincat/prepare/facts.h"
+#include "spincat/prepare/prepare.h"
+#include "spincat/spin/params.h"
 
 namespace spincat {
 
@@ -34,5 +36,9 @@ std::string object_json(const std::string& file, const ObjectFacts& facts);
 
 // As model_json, and "stage_seconds", "skipped": [{"file", "error"}]
 std::string training_json(const std::string& file, const TrainResult& result);
+
+// {"file", "spin_points", "surface_points", "channels", "rows", "columns", "bin_size": in the file's unit}
+std::string spin_json(const std::string& file, std::size_t spin_points, const SpinImageParams& params,
+                      const PreparedObject& object);
 
 }  // namespace spincat

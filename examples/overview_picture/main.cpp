@@ -15,6 +15,7 @@
 #include "spincat/io/read_object.h"
 #include "spincat/pipeline/classify.h"
 #include "spincat/prepare/facts.h"
+#include "spincat/prepare/resolution.h"
 #include "spincat/spin/spin_images.h"
 #include "svg.h"
 
@@ -24,9 +25,9 @@ namespace fs = std::filesystem;
 
 constexpr double kWidth = 1200.0;
 constexpr double kHeader = 96.0;
-constexpr double kRow = 150.0;
-constexpr double kFooter = 14.0;
-constexpr double kImage = 122.0;  // size of a drawn spin image
+constexpr double kRow = 156.0;
+constexpr double kFooter = 8.0;
+constexpr double kImage = 126.0;  // size of a drawn spin image
 constexpr std::size_t kImages = 3;
 constexpr double kColumns[] = {36.0, 292.0, 736.0, 996.0};  // left edges of objects, images, votes and names
 
@@ -60,21 +61,35 @@ Road travel(const spincat::Model& model, const fs::path& file) {
   return road;
 }
 
-void draw_road(Svg& svg, const spincat::Model& model, const Road& road, double azimuth, double top) {
-  const std::size_t surface_size = road.prepared.surface.size();
-  const std::vector<SeenPoint> points = look_at(road.prepared.surface, road.prepared.spin_points, azimuth,
-                                                {kColumns[0] + 6.0, top + 4.0, 200.0, kRow - 34.0});
-  const std::vector<std::size_t> shown = far_apart(points, surface_size, kImages);
+// A dot's size in units of the object: so wide that dots as close as most are cover the surface.
+double dot_size(const spincat::OrientedPoints& surface) {
+  std::vector<spincat::Vec3> points;
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    points.push_back(surface.position(i).cast<double>());
+  }
+  return 2.0 * spincat::cloud_resolution(points);
+}
+
+// Draws the object; returns which spin points are marked in it.
+std::vector<std::size_t> draw_object(Svg& svg, const Road& road, double azimuth, double top) {
+  const spincat::OrientedPoints& surface = road.prepared.surface;
+  const Sight sight =
+      look_at(surface, road.prepared.spin_points, azimuth, {kColumns[0] + 8.0, top + 10.0, 200.0, kRow - 42.0});
+  const std::vector<std::size_t> shown = far_apart(sight.points, surface.size(), kImages);
   std::vector<SeenPoint> marked;
   for (const std::size_t k : shown) {
-    marked.push_back(points[surface_size + k]);
+    marked.push_back(sight.points[surface.size() + k]);
   }
-  draw_points(svg, std::span(points).first(surface_size), marked);
-  svg.text(kColumns[0] + 106.0, top + kRow - 10.0, road.caption, {12.5, kFaint, false, "middle"});
+  draw_points(svg, std::span(sight.points).first(surface.size()), dot_size(surface) * sight.scale, marked);
+  svg.text(kColumns[0] + 106.0, top + kRow - 12.0, road.caption, {12.5, kFaint, false, "middle"});
+  return shown;
+}
 
+void draw_road(Svg& svg, const spincat::Model& model, const Road& road, double azimuth, double top) {
+  const std::vector<std::size_t> shown = draw_object(svg, road, azimuth, top);
   for (std::size_t i = 0; i < shown.size(); ++i) {
     draw_spin_image(svg, road.images.image(shown[i]), road.images.shape(),
-                    kColumns[1] + static_cast<double>(i) * (kImage + 16.0), top + (kRow - kImage) / 2.0, kImage, i);
+                    kColumns[1] + static_cast<double>(i) * (kImage + 14.0), top + (kRow - kImage) / 2.0, kImage, i);
   }
   const spincat::Classification& answer = road.classification;
   draw_votes(svg, answer.ballot, model.categories, {kColumns[2], top + 10.0, 210.0, kRow - 20.0});
@@ -86,8 +101,8 @@ void draw_header(Svg& svg, const spincat::Model& model, const Road& example) {
   const std::size_t judges = model.categories.size() * (model.categories.size() - 1) / 2;
   const std::string notes[] = {
       fmt::format("seen from outside: {} points", with_commas(example.prepared.surface.size())),
-      fmt::format("{} an object, here three of them", example.images.count()),
-      fmt::format("{} judges, one a pair", judges), "and how sure that is"};
+      fmt::format("{} per object, three of them shown", example.images.count()),
+      fmt::format("{} judges, one for each pair", judges), "and how sure that is"};
   const std::string titles[] = {"mesh or cloud", "spin images", "judges vote", "name"};
   for (std::size_t i = 0; i < 4; ++i) {
     svg.text(kColumns[i], 46.0, titles[i], {22.0, kInk, true});

@@ -63,7 +63,7 @@ std::string_view mark_colour(std::size_t number) {
   return colours[number % colours.size()];
 }
 
-void draw_points(Svg& svg, std::span<const SeenPoint> points, std::span<const SeenPoint> marked) {
+void draw_points(Svg& svg, std::span<const SeenPoint> points, double size, std::span<const SeenPoint> marked) {
   constexpr int kShades = 10;
   constexpr double kSlab = 6.0;  // pixels of depth; dots within a slab are sorted by shade, so that they share a path
   std::map<std::tuple<bool, double, int>, std::string> paths;
@@ -73,11 +73,11 @@ void draw_points(Svg& svg, std::span<const SeenPoint> points, std::span<const Se
         point.hidden ? std::tuple(false, 0.0, 0) : std::tuple(true, std::floor(point.depth / kSlab), shade);
     paths[key] += fmt::format("M{} {}h.01", short_number(point.x), short_number(point.y));
   }
-  svg.begin_group("fill=\"none\" stroke-linecap=\"round\" stroke-width=\"2.7\"");
+  svg.begin_group(fmt::format("fill=\"none\" stroke-linecap=\"round\" stroke-width=\"{}\"", short_number(size)));
   for (const auto& [key, commands] : paths) {
     const auto [seen, slab, shade] = key;
     const double t = (shade + 0.5) / kShades;
-    svg.path(commands, seen ? fmt::format("stroke=\"{}\"", oklch(0.30 + 0.50 * t, 0.065 - 0.02 * t, 255.0))
+    svg.path(commands, seen ? fmt::format("stroke=\"{}\"", oklch(0.22 + 0.64 * t, 0.07 - 0.02 * t, 255.0))
                             : "stroke=\"#dfe4ec\" stroke-width=\"2\"");
   }
   svg.end_group();

@@ -16,8 +16,8 @@ inline constexpr std::string_view kFaint = "#5d6878";
 // The colours of the spin points and of the frames around their images; also told apart by their numbers.
 std::string_view mark_colour(std::size_t number);
 
-// Points as dots, the furthest first, hidden ones pale; `marked` (indices) as numbered discs.
-void draw_points(Svg& svg, std::span<const SeenPoint> points, std::span<const SeenPoint> marked);
+// Points as dots `size` pixels wide, the furthest first, hidden ones pale; `marked` as numbered discs.
+void draw_points(Svg& svg, std::span<const SeenPoint> points, double size, std::span<const SeenPoint> marked);
 
 // A spin image, its channels added up, as a heat map in a frame of `size` pixels; brightness grows with the square root
 // of the value.

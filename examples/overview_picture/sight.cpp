@@ -29,8 +29,8 @@ SeenPoint seen(const Eigen::Vector3f& position, Eigen::Vector3f normal) {
   return {position.x(), -position.y(), position.z(), 0.5 + 0.5 * normal.dot(light), false};
 }
 
-// Scales and moves the picture so that the first `count` points fill the box.
-void fit(std::vector<SeenPoint>& points, std::size_t count, const Box& box) {
+// Scales and moves the picture so that the first `count` points fill the box; returns the scale.
+double fit(std::vector<SeenPoint>& points, std::size_t count, const Box& box) {
   const auto end = points.begin() + static_cast<std::ptrdiff_t>(count);
   const auto [left, right] = std::minmax_element(points.begin(), end, [](auto& a, auto& b) { return a.x < b.x; });
   const auto [top, bottom] = std::minmax_element(points.begin(), end, [](auto& a, auto& b) { return a.y < b.y; });
@@ -42,6 +42,7 @@ void fit(std::vector<SeenPoint>& points, std::size_t count, const Box& box) {
     point.y = box.y + box.height / 2.0 + (point.y - centre_y) * scale;
     point.depth *= scale;
   }
+  return scale;
 }
 
 // Every one of the first `count` points is a small disc that hides what lies behind it.
@@ -56,18 +57,18 @@ void hide(std::vector<SeenPoint>& points, std::size_t count) {
 
 }  // namespace
 
-std::vector<SeenPoint> look_at(const spincat::OrientedPoints& surface, const spincat::OrientedPoints& marks,
-                               double azimuth, const Box& box) {
+Sight look_at(const spincat::OrientedPoints& surface, const spincat::OrientedPoints& marks, double azimuth,
+              const Box& box) {
   const Eigen::Matrix3f rotation = view_rotation(azimuth);
-  std::vector<SeenPoint> points;
+  Sight sight;
   for (const spincat::OrientedPoints* each : {&surface, &marks}) {
     for (std::size_t i = 0; i < each->size(); ++i) {
-      points.push_back(seen(rotation * each->position(i), rotation * each->normal(i)));
+      sight.points.push_back(seen(rotation * each->position(i), rotation * each->normal(i)));
     }
   }
-  fit(points, surface.size(), box);
-  hide(points, surface.size());
-  return points;
+  sight.scale = fit(sight.points, surface.size(), box);
+  hide(sight.points, surface.size());
+  return sight;
 }
 
 std::vector<std::size_t> far_apart(const std::vector<SeenPoint>& points, std::size_t first, std::size_t count) {

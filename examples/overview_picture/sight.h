@@ -23,10 +23,17 @@ struct Box {
   double height = 0.0;
 };
 
+// What the viewer sees: the points, and how many pixels a unit of the object has.
+struct Sight {
+  std::vector<SeenPoint> points;
+  double scale = 1.0;
+};
+
 // Looks at the points from `azimuth` degrees around the y axis and a little above, without perspective, so large that
-// `surface` fills the box. Returns the points of `surface` followed by those of `marks`; only `surface` hides anything.
-std::vector<SeenPoint> look_at(const spincat::OrientedPoints& surface, const spincat::OrientedPoints& marks,
-                               double azimuth, const Box& box);
+// `surface` fills the box. The points are those of `surface` followed by those of `marks`; only `surface` hides
+// anything.
+Sight look_at(const spincat::OrientedPoints& surface, const spincat::OrientedPoints& marks, double azimuth,
+              const Box& box);
 
 // `count` points that can be seen and lie far from each other: each the furthest, in the picture, from those before it.
 // `first` is the index of the first candidate; the results count from there. Fewer when not as many can be seen.

@@ -109,10 +109,7 @@ Evaluation evaluate(const Dataset& dataset, const Settings& settings, const Eval
 
   result.dataset = dataset.name;
   result.categories = table.categories;
-  result.object_counts.assign(n, 0);
-  for (const std::uint32_t label : labels) {
-    ++result.object_counts[label];
-  }
+  result.object_counts = table.object_counts();
   result.skipped = table.skipped;
   result.splits = options.splits;
   result.mean_class_rate = rate_over(class_rates);

@@ -130,6 +130,14 @@ std::vector<std::uint32_t> FeatureTable::object_labels() const {
   return labels;
 }
 
+std::vector<std::uint32_t> FeatureTable::object_counts() const {
+  std::vector<std::uint32_t> counts(categories.size(), 0);
+  for (const DatasetObject& object : objects) {
+    ++counts[object.category];
+  }
+  return counts;
+}
+
 std::vector<std::uint32_t> FeatureTable::row_labels() const {
   std::vector<std::uint32_t> labels;
   labels.reserve(objects.size() * rows_per_object);

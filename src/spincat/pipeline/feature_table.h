@@ -26,6 +26,7 @@ struct FeatureTable {
   StageSeconds seconds;  // added up over threads
 
   std::vector<std::uint32_t> object_labels() const;  // N
+  std::vector<std::uint32_t> object_counts() const;  // n: objects of each category, copies not counted
   std::vector<std::uint32_t> row_labels() const;     // one for each row
   // All rows of the given objects: what judges are taught on. A copy never leaves its object.
   std::vector<std::uint32_t> rows_of(std::span<const std::uint32_t> objects) const;

@@ -14,14 +14,19 @@ namespace {
 
 using Json = nlohmann::json;
 
-template <class T>
-T field(const Json& json, const char* name) {
+const Json& member(const Json& json, const char* name) {
   const auto at = json.find(name);
   if (at == json.end()) {
     throw InputError(fmt::format("setting '{}' is missing", name));
   }
+  return *at;
+}
+
+template <class T>
+T field(const Json& json, const char* name) {
+  const Json& value = member(json, name);
   try {
-    return at->get<T>();
+    return value.get<T>();
   } catch (const Json::exception&) {
     throw InputError(fmt::format("setting '{}' is of the wrong type", name));
   }
@@ -30,11 +35,7 @@ T field(const Json& json, const char* name) {
 // A whole number: a fraction, or a number beyond the type, is not quietly cut.
 template <class T>
 T whole(const Json& json, const char* name) {
-  const auto at = json.find(name);
-  if (at == json.end()) {
-    throw InputError(fmt::format("setting '{}' is missing", name));
-  }
-  const std::optional<T> number = whole_number<T>(*at);
+  const std::optional<T> number = whole_number<T>(member(json, name));
   if (!number) {
     throw InputError(fmt::format("setting '{}' is not a whole number in range", name));
   }

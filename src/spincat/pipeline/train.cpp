@@ -28,10 +28,7 @@ TrainResult train(const Dataset& dataset, const Settings& settings, const TrainO
   model.categories = table.categories;
   model.dataset = dataset.name;
   model.made_by = "spincat " SPINCAT_VERSION;
-  model.object_counts.assign(table.categories.size(), 0);
-  for (const DatasetObject& object : table.objects) {
-    ++model.object_counts[object.category];
-  }
+  model.object_counts = table.object_counts();
   result.skipped = table.skipped;
   result.seconds = table.seconds;
   result.seconds.judge += watch.lap();

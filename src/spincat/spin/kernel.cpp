@@ -214,6 +214,52 @@ HWY_INLINE VI scaled_index(VF index) {
   return hn::And(hn::BitCast(I(), hn::Add(index, low)), hn::Set(I(), kOne - 1));
 }
 
+// Writes the cells and the shares of a vector of points, one point's four shares after the other's. Transposing within
+// blocks of 128 bits is much cheaper than across them, and the order of points does not matter: point 4 b + j goes to
+// slot j blocks + b. Not so for the last, incomplete vector, whose points must come first.
+class SlotOrder {
+ public:
+  static constexpr bool kUsed = HWY_TARGET != HWY_SCALAR;
+
+  SlotOrder() : point_(hn::SetTableIndices(I(), points().data())) {}
+
+  HWY_INLINE VI cells(VI in_order, bool complete) const {
+    return complete ? hn::TableLookupLanes(in_order, point_) : in_order;
+  }
+
+  static HWY_INLINE void store(VI a, VI b, VI c, VI d, bool complete, std::int32_t* shares) {
+    const I i;
+    if (!complete) {
+      hn::StoreInterleaved4(a, b, c, d, i, shares);
+      return;
+    }
+#if HWY_TARGET != HWY_SCALAR  // where vectors have no blocks, none is complete
+    const hn::RepartitionToWide<I> wide;
+    const auto low_ab = hn::BitCast(wide, hn::InterleaveLower(i, a, b));
+    const auto low_cd = hn::BitCast(wide, hn::InterleaveLower(i, c, d));
+    const auto high_ab = hn::BitCast(wide, hn::InterleaveUpper(i, a, b));
+    const auto high_cd = hn::BitCast(wide, hn::InterleaveUpper(i, c, d));
+    const std::size_t lanes = hn::Lanes(i);
+    hn::Store(hn::BitCast(i, hn::InterleaveLower(wide, low_ab, low_cd)), i, shares);
+    hn::Store(hn::BitCast(i, hn::InterleaveUpper(wide, low_ab, low_cd)), i, shares + lanes);
+    hn::Store(hn::BitCast(i, hn::InterleaveLower(wide, high_ab, high_cd)), i, shares + 2 * lanes);
+    hn::Store(hn::BitCast(i, hn::InterleaveUpper(wide, high_ab, high_cd)), i, shares + 3 * lanes);
+#endif
+  }
+
+ private:
+  static std::array<std::int32_t, 64> points() {
+    std::array<std::int32_t, 64> point{};
+    const std::size_t blocks = hn::Lanes(I()) / 4;
+    for (std::size_t slot = 0; slot < 4 * blocks; ++slot) {
+      point[slot] = static_cast<std::int32_t>(4 * (slot % blocks) + slot / blocks);
+    }
+    return point;
+  }
+
+  decltype(hn::SetTableIndices(I(), static_cast<const std::int32_t*>(nullptr))) point_;
+};
+
 // How many sums a cell has.
 template <Binning kBinning, bool kSoft>
 constexpr std::size_t kSums = kBinning == Binning::bilinear ? 4 : (kSoft ? 2 : 1);
@@ -228,10 +274,12 @@ HWY_INLINE void place_pending(const Support& support, const CellLayout& layout, 
   hn::StoreU(hn::Zero(f), f, pending.cosine + count);
   const VF stride = hn::Set(f, static_cast<float>(layout.row_stride));
   const VI one = hn::Set(i, kOne);
+  const SlotOrder slots;
   for (std::size_t k = 0; k < count; k += hn::Lanes(f)) {
     const Place at = place_of<kConvention>(hn::Load(f, pending.beta + k), hn::Load(f, pending.alpha2 + k), support);
-    const VF cell = hn::Add(hn::Mul(at.row, stride), at.column);
-    hn::Store(scaled_index<kSums<kBinning, kSoft>>(cell), i, pending.cell + k);
+    const VI cell = scaled_index<kSums<kBinning, kSoft>>(hn::Add(hn::Mul(at.row, stride), at.column));
+    const bool complete = kBinning == Binning::bilinear && SlotOrder::kUsed && k + hn::Lanes(f) <= count;
+    hn::Store(slots.cells(cell, complete), i, pending.cell + k);
     VF weight = hn::Zero(f);
     if constexpr (kSoft) {
       const VF cosine = hn::Load(f, pending.cosine + k);
@@ -240,10 +288,11 @@ HWY_INLINE void place_pending(const Support& support, const CellLayout& layout, 
     }
     if constexpr (kBinning == Binning::bilinear) {
       const VF uv = hn::Mul(at.u, at.v);
-      hn::StoreInterleaved4(one, in_units(at.u), in_units(at.v), in_units(uv), i, pending.shares + 4 * k);
+      SlotOrder::store(one, in_units(at.u), in_units(at.v), in_units(uv), complete,
+                       pending.shares + 4 * k);
       if constexpr (kSoft) {
-        hn::StoreInterleaved4(in_units(weight), in_units(hn::Mul(weight, at.u)), in_units(hn::Mul(weight, at.v)),
-                              in_units(hn::Mul(weight, uv)), i, pending.weighted + 4 * k);
+        SlotOrder::store(in_units(weight), in_units(hn::Mul(weight, at.u)), in_units(hn::Mul(weight, at.v)),
+                     in_units(hn::Mul(weight, uv)), complete, pending.weighted + 4 * k);
       }
     } else if constexpr (kSoft) {
       hn::StoreInterleaved2(one, in_units(weight), i, pending.shares + 2 * k);

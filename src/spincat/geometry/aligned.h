@@ -22,4 +22,19 @@ struct AlignedAllocator {
 
 using AlignedFloats = std::vector<float, AlignedAllocator<float>>;
 
+// The same, but a new array's values are undefined: for memory that is written before it is read.
+template <class T>
+struct UninitialisedAllocator : AlignedAllocator<T> {
+  template <class U>
+  struct rebind {
+    using other = UninitialisedAllocator<U>;
+  };
+  template <class U>
+  void construct(U* place) {
+    ::new (static_cast<void*>(place)) U;
+  }
+};
+
+using UninitialisedFloats = std::vector<float, UninitialisedAllocator<float>>;
+
 }  // namespace spincat

@@ -1,6 +1,7 @@
 // Private to spin: work cut into steps that are done on several threads and delivered in order.
 #pragma once
 
+#include <algorithm>
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
@@ -106,5 +107,15 @@ class InOrder {
   std::map<std::size_t, Result> waiting_;
   std::exception_ptr failure_;
 };
+
+// Calls body(step, worker) for every step in [0, steps), on `threads` threads; exceptions as above.
+inline void for_each_step(std::size_t steps, std::size_t threads,
+                          const std::function<void(std::size_t step, std::size_t worker)>& body) {
+  const auto make = [&](std::size_t step, std::size_t worker) {
+    body(step, worker);
+    return true;
+  };
+  InOrder<bool>(steps, std::min(threads, steps), make, [](std::size_t, bool) {});
+}
 
 }  // namespace spincat

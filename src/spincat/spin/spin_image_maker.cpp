@@ -31,12 +31,12 @@ SpinPoint spin_point(const OrientedPoints& points, std::size_t k) {
 
 class SpinImageMaker::Engine {
  public:
-  Engine(const OrientedPoints& surface, const SpinImageParams& params)
+  Engine(const OrientedPoints& surface, const SpinImageParams& params, std::size_t threads)
       : shape_(params.shape()),
         kernel_(spin_kernel()),
         support_(params),
         layout_(support_),
-        surface_(surface, support_) {}
+        surface_(surface, support_, threads) {}
 
   const SpinImageShape& shape() const { return shape_; }
   std::size_t tiles() const { return surface_.tiles(); }
@@ -79,18 +79,20 @@ class SpinImageMaker::Engine {
     return std::clamp<std::size_t>(kSumsBytes / (layout_.size * sizeof(std::int64_t)), 1, kMostImages);
   }
 
+  // Several runs a thread: where the surface is dense, images take longer than elsewhere.
   void make_sharing_images(std::span<const Wanted> wanted, std::size_t threads) const {
-    const std::size_t share = (wanted.size() + threads - 1) / threads;
-    const auto make_share = [&](std::size_t step, std::size_t) {
-      const std::size_t begin = std::min(step * share, wanted.size());
-      make_run(wanted.subspan(begin, std::min(share, wanted.size() - begin)));
-      return true;
-    };
-    InOrder<bool>(threads, threads, make_share, [](std::size_t, bool) {});
+    constexpr std::size_t kRunsOfThread = 2;
+    const std::size_t runs = threads == 1 ? 1 : threads * kRunsOfThread;
+    std::vector<Sums> sums(threads);  // of the images that a thread has under way; zero between runs
+    for_each_step(runs, threads, [&](std::size_t run, std::size_t worker) {
+      const std::size_t begin = run * wanted.size() / runs;
+      const std::size_t end = (run + 1) * wanted.size() / runs;
+      make_run(wanted.subspan(begin, end - begin), sums[worker]);
+    });
   }
 
-  void make_run(std::span<const Wanted> wanted) const {
-    Sums sums(std::min(images_at_once(), wanted.size()) * layout_.size, 0);
+  void make_run(std::span<const Wanted> wanted, Sums& sums) const {
+    sums.resize(std::max(sums.size(), std::min(images_at_once(), wanted.size()) * layout_.size), 0);
     while (!wanted.empty()) {
       const auto group = wanted.first(std::min(images_at_once(), wanted.size()));
       sum_tiles(group, 0, tiles(), sums.data());
@@ -133,10 +135,24 @@ class SpinImageMaker::Engine {
     TileList list(tiles());
     list.resize(kernel_.select_tiles(surface_, support_, p, list.data()));
     std::erase_if(list, [&](std::uint32_t tile) { return tile < begin || tile >= end; });
-    if (list.size() > kTilesAtOnce) {
-      std::ranges::stable_sort(list, {}, [&](std::uint32_t tile) { return tile % portions(); });
+    return list.size() > kTilesAtOnce ? by_portion(list) : list;
+  }
+
+  TileList by_portion(const TileList& list) const {
+    std::vector<char> listed(tiles(), 0);
+    for (const std::uint32_t tile : list) {
+      listed[tile] = 1;
     }
-    return list;
+    TileList sorted;
+    sorted.reserve(list.size());
+    for (std::size_t portion = 0; portion < portions(); ++portion) {
+      for (std::size_t tile = portion; tile < tiles(); tile += portions()) {
+        if (listed[tile] != 0) {
+          sorted.push_back(static_cast<std::uint32_t>(tile));
+        }
+      }
+    }
+    return sorted;
   }
 
   // Adds what the tiles [begin, end) contribute to the images of `group`, to one set of sums an image.
@@ -177,8 +193,8 @@ class SpinImageMaker::Engine {
   SurfaceGroups surface_;
 };
 
-SpinImageMaker::SpinImageMaker(const OrientedPoints& surface, const SpinImageParams& params)
-    : engine_(std::make_unique<const Engine>(surface, params)) {}
+SpinImageMaker::SpinImageMaker(const OrientedPoints& surface, const SpinImageParams& params, std::size_t threads)
+    : engine_(std::make_unique<const Engine>(surface, params, threads)) {}
 
 SpinImageMaker::~SpinImageMaker() = default;
 

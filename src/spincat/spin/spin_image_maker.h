@@ -19,9 +19,10 @@ namespace spincat {
 //   maker.make(spin_points, 0, images);  // room for 64 images: those of spin points 0 to 63
 class SpinImageMaker {
  public:
-  // Copies the surface and sorts it in space: about 10 ms for a million points. The environment variable SPINCAT_SIMD
-  // forces one of simd_paths(); throws InputError when it names none of them. Precondition: params are valid.
-  SpinImageMaker(const OrientedPoints& surface, const SpinImageParams& params);
+  // Copies the surface and sorts it in space, on `threads` threads: about 10 ms of one for a million points. The
+  // environment variable SPINCAT_SIMD forces one of simd_paths(); throws InputError when it names none of them.
+  // Precondition: params are valid.
+  SpinImageMaker(const OrientedPoints& surface, const SpinImageParams& params, std::size_t threads = 1);
   ~SpinImageMaker();
 
   const SpinImageShape& shape() const;

@@ -13,13 +13,13 @@ namespace {
 
 using Blocks = std::vector<SpinImageBlock>;
 
-// How many blocks are made together: the more, the better their spin points can be put in spatial order; but there must
-// be some for each thread, and memory is bounded. This decides about nothing but speed.
-std::size_t blocks_together(std::size_t blocks, const SpinImageShape& shape, std::size_t threads) {
+// How many blocks are made together: the more, the better their spin points can be put in spatial order; but each of the
+// threads that share them out must find some, and memory is bounded. This decides about nothing but speed.
+std::size_t blocks_together(std::size_t blocks, const SpinImageShape& shape, std::size_t sharing_threads) {
   constexpr std::size_t kMostBytes = std::size_t{16} << 20;
   constexpr std::size_t kMostBlocks = 256;
   const std::size_t block_bytes = kSpinImageBlock * shape.size() * sizeof(float);
-  const std::size_t fair = threads == 1 ? kMostBlocks : blocks / (8 * threads);
+  const std::size_t fair = sharing_threads == 1 ? kMostBlocks : blocks / (8 * sharing_threads);
   return std::max<std::size_t>(std::min({kMostBlocks, kMostBytes / block_bytes, fair}), 1);
 }
 
@@ -69,12 +69,12 @@ class BlockStore {
 
 void make_spin_images(const OrientedPoints& surface, const OrientedPoints& spin_points, const SpinImageParams& params,
                       const SpinImageConsumer& consume, int threads) {
-  const SpinImageMaker maker(surface, params);
   const auto workers = static_cast<std::size_t>(std::max(threads, 1));
+  const SpinImageMaker maker(surface, params, workers);
   const std::size_t blocks = (spin_points.size() + kSpinImageBlock - 1) / kSpinImageBlock;
   // With enough blocks every thread makes its own; otherwise all threads work on each.
   const bool share_blocks = blocks >= 4 * workers;
-  const std::size_t together = blocks_together(blocks, params.shape(), workers);
+  const std::size_t together = blocks_together(blocks, params.shape(), share_blocks ? workers : 1);
   BlockStore store(spin_points.size(), params.shape());
   const auto make = [&](std::size_t step, std::size_t) {
     const std::size_t first = step * together;

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <span>
 
+#include "spincat/spin/in_order.h"
+
 namespace spincat {
 namespace {
 
@@ -122,10 +124,10 @@ Bounds::Bounds(std::size_t count) : size(count) {
   }
 }
 
-SurfaceGroups::SurfaceGroups(const OrientedPoints& surface, const Support& support)
-    : points_(divided_up(surface.size(), kGroupPoints) * 6 * kGroupPoints, kNaN),
-      group_bounds_(divided_up(surface.size(), kGroupPoints)),
-      tile_bounds_(divided_up(group_bounds_.size, kTileGroups)) {
+SurfaceGroups::SurfaceGroups(const OrientedPoints& surface, const Support& support, std::size_t threads)
+    : group_bounds_(divided_up(surface.size(), kGroupPoints)),
+      tile_bounds_(divided_up(group_bounds_.size, kTileGroups)),
+      points_(groups() * 6 * kGroupPoints) {
   choose_cells(surface);
   std::vector<std::uint32_t> order;
   if (sees_everything(support)) {
@@ -134,13 +136,26 @@ SurfaceGroups::SurfaceGroups(const OrientedPoints& surface, const Support& suppo
   } else {
     order = curve_order(surface);
   }
-  copy_points(surface, order);
-  for (std::size_t g = 0; g < groups(); ++g) {
+  constexpr std::size_t kTilesOfThread = 4;  // fewer are done before another thread has started
+  const std::size_t workers = std::clamp<std::size_t>(tiles() / kTilesOfThread, 1, threads);
+  const std::size_t share = divided_up(tiles(), workers);
+  for_each_step(workers, workers, [&](std::size_t step, std::size_t) {
+    for (std::size_t t = step * share; t < std::min((step + 1) * share, tiles()); ++t) {
+      fill_tile(t, surface, order);
+    }
+  });
+}
+
+// The points of a tile and the bounds around them.
+void SurfaceGroups::fill_tile(std::size_t t, const OrientedPoints& surface, std::span<const std::uint32_t> order) {
+  const std::size_t first = t * kTileGroups;
+  const std::size_t last = std::min(first + kTileGroups, groups());
+  for (std::size_t g = first; g < last; ++g) {
+    const std::size_t begin = g * kGroupPoints;
+    copy_group(g, surface, order.subspan(begin, std::min(kGroupPoints, order.size() - begin)));
     bound_group(group_bounds_, g, group(g));
   }
-  for (std::size_t t = 0; t < tiles(); ++t) {
-    bound_tile(tile_bounds_, t, group_bounds_, t * kTileGroups, std::min((t + 1) * kTileGroups, groups()));
-  }
+  bound_tile(tile_bounds_, t, group_bounds_, first, last);
 }
 
 // Cells of the curve: cubes, about one for every eight points that a surface (not a volume) puts into them.
@@ -166,7 +181,7 @@ void SurfaceGroups::choose_cells(const OrientedPoints& surface) {
 // sorting them costs more than it saves).
 bool SurfaceGroups::sees_everything(const Support& support) const {
   const float reach = std::min(support.most_beta, std::sqrt(std::max(0.0F, support.most_alpha2)));
-  return !support.tests_angle && (reach >= 0.5F * diagonal_ || points_.size() <= 6 * kGroupPoints * kTileGroups);
+  return !support.tests_angle && (reach >= 0.5F * diagonal_ || tiles() <= 1);
 }
 
 // The cell along one axis. A position that is no number goes to the first cell, one that is outside to the nearest.
@@ -225,21 +240,19 @@ std::vector<std::uint32_t> SurfaceGroups::curve_order(const OrientedPoints& surf
   return order;
 }
 
-void SurfaceGroups::copy_points(const OrientedPoints& surface, const std::vector<std::uint32_t>& order) {
+void SurfaceGroups::copy_group(std::size_t g, const OrientedPoints& surface, std::span<const std::uint32_t> points) {
   const std::array<std::span<const float>, 6> arrays = {surface.x(),  surface.y(),  surface.z(),
                                                         surface.nx(), surface.ny(), surface.nz()};
-  for (std::size_t first = 0; first < order.size(); first += kGroupPoints) {
-    float* group = points_.data() + 6 * first;
-    const std::size_t count = std::min(kGroupPoints, order.size() - first);
-    for (std::size_t k = 0; k < 6; ++k) {
-      for (std::size_t i = 0; i < count; ++i) {
-        group[k * kGroupPoints + i] = arrays[k][order[first + i]];
-      }
+  float* group = points_.data() + 6 * g * kGroupPoints;
+  for (std::size_t k = 0; k < 6; ++k) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      group[k * kGroupPoints + i] = arrays[k][points[i]];
     }
-    // Places left over repeat the last normal, so that they widen no bound; their NaN positions stay.
-    for (std::size_t k = 3; k < 6; ++k) {
-      std::fill_n(group + k * kGroupPoints + count, kGroupPoints - count, group[k * kGroupPoints + count - 1]);
-    }
+  }
+  // Places left over repeat the last normal, so that they widen no bound.
+  for (std::size_t k = 0; k < 6; ++k) {
+    float* run = group + k * kGroupPoints;
+    std::fill_n(run + points.size(), kGroupPoints - points.size(), k < 3 ? kNaN : run[points.size() - 1]);
   }
 }
 

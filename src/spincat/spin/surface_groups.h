@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "spincat/geometry/aligned.h"
@@ -46,8 +47,9 @@ struct Bounds {
 // in the last group hold NaN positions, which lie in no support.
 class SurfaceGroups {
  public:
-  // Sorts only where a support can leave groups out; where it sees the whole surface, the order does not matter.
-  SurfaceGroups(const OrientedPoints& surface, const Support& support);
+  // Sorts only where a support can leave groups out; where it sees the whole surface, the order does not matter. The
+  // same for any number of threads.
+  SurfaceGroups(const OrientedPoints& surface, const Support& support, std::size_t threads);
 
   std::size_t groups() const { return group_bounds_.size; }
   std::size_t tiles() const { return tile_bounds_.size; }
@@ -71,14 +73,15 @@ class SurfaceGroups {
   bool sees_everything(const Support& support) const;
   std::vector<std::uint32_t> curve_keys(const OrientedPoints& surface) const;
   std::vector<std::uint32_t> curve_order(const OrientedPoints& surface) const;
-  void copy_points(const OrientedPoints& surface, const std::vector<std::uint32_t>& order);
+  void fill_tile(std::size_t t, const OrientedPoints& surface, std::span<const std::uint32_t> order);
+  void copy_group(std::size_t g, const OrientedPoints& surface, std::span<const std::uint32_t> points);
 
   unsigned bits_ = 0;  // of a cell's number along each axis
   std::array<Axis, 3> axes_;
   float diagonal_ = 0.0F;  // of the bounding box
-  AlignedFloats points_;
   Bounds group_bounds_;
   Bounds tile_bounds_;
+  UninitialisedFloats points_;  // groups() x 6 x kGroupPoints
 };
 
 }  // namespace spincat

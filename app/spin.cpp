@@ -116,9 +116,9 @@ void write_sheet(const SpinArguments& arguments, const OrientedPoints& surface, 
   out.commit();
 }
 
-PreparedObject prepared_object(const SpinArguments& arguments, const Settings& settings) {
+Preparation prepared_object(const SpinArguments& arguments, const Settings& settings) {
   try {
-    return prepare(read_object(arguments.file), settings.prepare, settings.seed);
+    return prepare_object(read_object(arguments.file), settings);
   } catch (const InputError& error) {
     throw error.file().empty() ? InputError(arguments.file.string(), error.problem()) : error;
   }
@@ -147,11 +147,9 @@ int run_spin(const SpinArguments& arguments) {
     throw InputError(arguments.output.string(), "expected a name that ends in .npy or .png");
   }
   check_outputs(arguments);
-  const PreparedObject object = prepared_object(arguments, settings);
+  const auto [object, params] = prepared_object(arguments, settings);
   const bool chosen = arguments.settings.spin_points.has_value();
   const OrientedPoints& spin_points = chosen ? object.spin_points : object.surface;
-  SpinImageParams params = settings.spin;
-  params.bin_size = prepared_bin_size(object, settings);
   if (png) {
     write_sheet(arguments, object.surface, spin_points, params);
   } else {

@@ -52,11 +52,9 @@ Road travel(const spincat::Model& model, const fs::path& file) {
   road.caption =
       fmt::format("{}, {} {}", file.filename().string(), with_commas(facts.is_mesh ? facts.triangles : facts.points),
                   facts.is_mesh ? "triangles" : "points");
-  // The very points that spincat::describe uses for the object itself (copy 0).
-  road.prepared = spincat::prepare(object, settings.prepare, spincat::derive_seed(settings.seed, 0));
-  spincat::SpinImageParams params = settings.spin;
-  params.bin_size = spincat::prepared_bin_size(road.prepared, settings);
-  road.images = spincat::make_spin_images(road.prepared.surface, road.prepared.spin_points, params);
+  auto [prepared, params] = spincat::prepare_object(object, settings);
+  road.images = spincat::make_spin_images(prepared.surface, prepared.spin_points, params);
+  road.prepared = std::move(prepared);
   road.classification = spincat::classify(model, object);
   return road;
 }

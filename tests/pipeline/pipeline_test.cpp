@@ -128,20 +128,19 @@ TEST(Describe, ATurnChangesLessThanAnotherShape) {
   }
 }
 
-TEST(PreparedBinSize, IsInTheUnitOfPreparedPoints) {
-  PreparedObject object;
-  object.scale = 0.5;
-  object.resolution = 0.25;
+TEST(PrepareObject, GivesTheBinSizeInTheUnitOfPreparedPoints) {
+  const PointCloud cloud{{{0, 0, 0}, {10, 0, 0}, {20, 0, 0}, {30, 0, 0}, {40, 0, 0}}, {}, {}};
   Settings settings;
   settings.spin.bin_size = 3.0;
-  settings.bin_size_unit = BinSizeUnit::relative;
-  EXPECT_EQ(prepared_bin_size(object, settings), 3.0);
-  settings.bin_size_unit = BinSizeUnit::absolute;
-  EXPECT_EQ(prepared_bin_size(object, settings), 1.5);
-  settings.bin_size_unit = BinSizeUnit::resolution;
-  EXPECT_EQ(prepared_bin_size(object, settings), 0.75);
-  object.resolution = 0.0;
-  EXPECT_NE(input_error([&] { prepared_bin_size(object, settings); }).find("resolution"), std::string::npos);
+  const auto bin_size_in = [&](BinSizeUnit unit) {
+    settings.bin_size_unit = unit;
+    const Preparation preparation = prepare_object(cloud, settings);
+    EXPECT_DOUBLE_EQ(preparation.object.scale, 1.0 / 20.0);
+    return preparation.params.bin_size;
+  };
+  EXPECT_DOUBLE_EQ(bin_size_in(BinSizeUnit::relative), 3.0);
+  EXPECT_DOUBLE_EQ(bin_size_in(BinSizeUnit::absolute), 0.15);
+  EXPECT_DOUBLE_EQ(bin_size_in(BinSizeUnit::resolution), 1.5);
 }
 
 class Preset : public testing::TestWithParam<const char*> {};

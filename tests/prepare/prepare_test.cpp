@@ -89,7 +89,6 @@ TEST_P(PrepareSurface, DoesNotDependOnTheUnit) {
     const PreparedObject other = prepare(test::scaled(mesh, unit), settings_of(GetParam()), 1);
     expect_same(prepared, other);
     EXPECT_EQ(other.scale * unit, prepared.scale);
-    EXPECT_EQ(other.resolution, prepared.resolution);
   }
 }
 
@@ -170,7 +169,6 @@ TEST(Prepare, VerticesAreTheVerticesWithTheirNormals) {
   ASSERT_EQ(prepared.surface.size(), 8U);
   EXPECT_NEAR((prepared.surface.position(7) - Eigen::Vector3f(1, 2, 2) / 3.0F).norm(), 0.0F, 1e-6F);
   EXPECT_DOUBLE_EQ(prepared.scale, 2.0 / 3.0);
-  EXPECT_DOUBLE_EQ(prepared.resolution, 4.0 / 3.0);  // 4 edges of 1, 8 of 2, 4 diagonals of sqrt 5 and 2 of sqrt 8
 }
 
 TEST(Prepare, FewVerticesAreRepeatedAsSpinPointsInTurn) {
@@ -254,13 +252,6 @@ TEST(PrepareCloud, EstimatedNormalsTurnOutwardsOrToTheSensor) {
     EXPECT_GT(outward.surface.normal(i).dot(outward.surface.position(i)), 0.9F);
     EXPECT_LT(inward.surface.normal(i).dot(inward.surface.position(i)), -0.9F);
   }
-}
-
-TEST(PrepareCloud, ResolutionIsInPreparedUnits) {
-  const PointCloud cloud{{{0, 0, 0}, {10, 0, 0}, {20, 0, 0}, {30, 0, 0}, {40, 0, 0}}, {}, {}};
-  const PreparedObject prepared = prepare(cloud, PrepareSettings{}, 1);
-  EXPECT_DOUBLE_EQ(prepared.scale, 1.0 / 20.0);
-  EXPECT_DOUBLE_EQ(prepared.resolution, 0.5);
 }
 
 TEST(PrepareSettings, AreRefusedOutOfRange) {

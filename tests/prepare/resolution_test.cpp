@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/expect_error.h"
 #include "support/shapes.h"
 
 namespace spincat {
@@ -49,6 +50,24 @@ TEST(CloudResolution, IsTheMedianDistanceToTheNearestOther) {
 TEST(CloudResolution, OfFewerThanTwoPointsIsZero) {
   EXPECT_EQ(cloud_resolution({}), 0.0);
   EXPECT_EQ(cloud_resolution(std::vector<Vec3>{{1, 2, 3}}), 0.0);
+}
+
+TEST(ObjectResolution, IsThatOfTheMeshOrOfTheDistinctPoints) {
+  EXPECT_DOUBLE_EQ(object_resolution(test::box(1, 2, 2)), 2.0);  // 4 edges of 1, 8 of 2, 4 diagonals sqrt 5, 2 of sqrt 8
+  EXPECT_DOUBLE_EQ(object_resolution(PointCloud{{{0, 0, 0}, {10, 0, 0}, {30, 0, 0}, {0, 0, 0}}, {}, {}}), 10.0);
+  // Without area: the cloud of its vertices.
+  EXPECT_DOUBLE_EQ(object_resolution(Mesh{{{0, 0, 0}, {1, 0, 0}, {3, 0, 0}}, {{0, 1, 2}}}), 1.0);
+}
+
+TEST(ObjectResolution, FollowsAnyUnit) {
+  const Mesh mesh = test::cylinder(12, 1.0, 0.5, 3.0);
+  for (const double unit : {0x1p-600, 0x1p-100, 0x1p100, 0x1p600}) {
+    EXPECT_DOUBLE_EQ(object_resolution(test::scaled(mesh, unit)), unit * object_resolution(mesh));
+  }
+}
+
+TEST(ObjectResolution, NeedsAnExtent) {
+  EXPECT_EQ(test::input_error([] { object_resolution(PointCloud{}); }), "holds no points");
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include "spincat/encode/feature_vector.h"
 #include "spincat/geometry/object.h"
 #include "spincat/pipeline/settings.h"
+#include "spincat/prepare/prepare.h"
+#include "spincat/spin/params.h"
 
 namespace spincat {
 
@@ -21,8 +23,14 @@ struct StageSeconds {
 // to `seconds` where one is given. Throws InputError (without a file name) when the object has no extent.
 FeatureVector describe(const Object& object, const Settings& settings, int copy = 0, StageSeconds* seconds = nullptr);
 
-// The bin size in the unit of prepared points. Throws InputError when an object of resolution 0 is to be measured in
-// mesh resolutions.
-double prepared_bin_size(const PreparedObject& object, const Settings& settings);
+// What an object's spin images are made of, and how: parameters in the unit of the prepared points.
+struct Preparation {
+  PreparedObject object;
+  SpinImageParams params;
+};
+
+// The first stage of describe by itself, for those who want the spin images: of an object, or of its stretched training
+// copy number `copy`. Deterministic. Throws as describe does, and when the bin size is out of range for this object.
+Preparation prepare_object(const Object& object, const Settings& settings, int copy = 0);
 
 }  // namespace spincat

@@ -17,7 +17,6 @@
 #include "spincat/prepare/normalise.h"
 #include "spincat/prepare/normals.h"
 #include "spincat/prepare/repeats.h"
-#include "spincat/prepare/resolution.h"
 #include "spincat/prepare/surface_samples.h"
 
 namespace spincat {
@@ -38,8 +37,7 @@ void check_range(const char* field, int value, int low, int high) {
 // The surface found for an object, in a frame of moderate size, before the spin points are chosen.
 struct Surface {
   SurfacePoints points;
-  Similarity frame;         // from the file to that frame
-  double resolution = 0.0;  // in units of that frame
+  Similarity frame;  // from the file to that frame
 };
 
 void shuffle_points(SurfacePoints& points, Random& random) {
@@ -110,7 +108,7 @@ Surface cloud_surface(const PointCloud& given, const PrepareSettings& settings, 
   if (settings.surface != SurfaceKind::vertices) {
     points = even_out(points, static_cast<std::size_t>(settings.points), random);
   }
-  return {std::move(points), similarity, cloud_resolution(cloud.points)};
+  return {std::move(points), similarity};
 }
 
 bool all_at_one_place(std::span<const Vec3> points) {
@@ -127,7 +125,7 @@ Surface mesh_surface(const Mesh& given, const PrepareSettings& settings, Random&
   if (!has_area(mesh)) {
     return cloud_surface({given.vertices, {}, {}}, settings, random);
   }
-  return {mesh_points(mesh, settings, random), similarity, mesh_resolution(mesh)};
+  return {mesh_points(mesh, settings, random), similarity};
 }
 
 Surface find_surface(const Object& object, const PrepareSettings& settings, Random& random) {
@@ -181,7 +179,6 @@ PreparedObject prepare(const Object& object, const PrepareSettings& settings, st
   prepared.spin_points = choose_spin_points(surface.points, similarity, settings, random);
   prepared.scale = surface.frame.factor * similarity.factor;
   prepared.centre = surface.frame.centre + similarity.centre / surface.frame.factor;
-  prepared.resolution = surface.resolution * similarity.factor;
   return prepared;
 }
 

@@ -37,8 +37,6 @@ struct PreparedObject {
   OrientedPoints spin_points;  // some of the surface's points, in random order
   double scale = 1.0;          // prepared units in one unit of the file
   Vec3 centre = Vec3::Zero();  // where the prepared origin is in the file: x_file = x / scale + centre
-  double resolution = 0.0;  // mesh resolution in prepared units: the median length of the mesh's edges, each edge once
-                            // (Johnson), or the median distance of a cloud's points to their nearest neighbour
 };
 
 // Prepares a mesh or a cloud. Meshes without any area are treated as the cloud of their vertices. Repeated points of a

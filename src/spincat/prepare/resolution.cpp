@@ -6,9 +6,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <utility>
+#include <variant>
 #include <vector>
 
+#include "spincat/prepare/normalise.h"
 #include "spincat/prepare/point_tree.h"
+#include "spincat/prepare/repeats.h"
+#include "spincat/prepare/surface_samples.h"
 
 namespace spincat {
 namespace {
@@ -20,6 +24,18 @@ double upper_median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);
   return *middle;
+}
+
+// The median distance of the distinct points among `given` to their nearest neighbour.
+double points_resolution(const std::vector<Vec3>& given) {
+  const std::vector<std::uint32_t> first = first_at_position(given);
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (first[i] == i) {
+      points.push_back(given[i]);
+    }
+  }
+  return cloud_resolution(points);
 }
 
 }  // namespace
@@ -61,6 +77,23 @@ double cloud_resolution(std::span<const Vec3> points) {
     distances.push_back(std::sqrt(squared[1]));
   }
   return upper_median(std::move(distances));
+}
+
+double object_resolution(const Object& object) {
+  double resolution = 0.0;
+  double factor = 1.0;  // lengths of a moderate size: squares of 1e200 are infinite
+  if (const auto* mesh = std::get_if<Mesh>(&object)) {
+    const Similarity similarity = unit_similarity(mesh->vertices);
+    const Mesh moderate = transformed(*mesh, similarity);
+    factor = similarity.factor;
+    resolution = has_area(moderate) ? mesh_resolution(moderate) : points_resolution(moderate.vertices);
+  } else {
+    const auto& cloud = std::get<PointCloud>(object);
+    const Similarity similarity = unit_similarity(cloud.points);
+    factor = similarity.factor;
+    resolution = points_resolution(transformed(cloud, similarity).points);
+  }
+  return resolution / factor;
 }
 
 }  // namespace spincat

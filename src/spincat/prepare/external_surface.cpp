@@ -94,66 +94,52 @@ struct Columns {
   int last;
 };
 
-// The weights of a projected triangle's corners at points of the image: all at least zero inside and on its edge. They
-// are linear, and so is one over the depth.
-class Weights {
+// The weights of a projected triangle's corners at the pixel centres of one row: all at least zero inside and on its
+// edge. They are linear, and so is one over the depth. Counted from the first column that is asked for.
+class RowWeights {
  public:
-  Weights(const Vec3& a, const Vec3& b, const Vec3& c, double scale)
-      : a_(a),
-        ab_(b - a),
-        ac_(c - a),
-        scale_(scale),
-        step_b_(ac_.y() * scale),
-        step_c_(-ab_.y() * scale),
-        depth_step_(step_b_ * ab_.z() + step_c_ * ac_.z()) {}
+  RowWeights(double b, double c, double step_b, double step_c) : b_(b), c_(c), step_b_(step_b), step_c_(step_c) {}
 
-  // The pixels of a row, among `columns`, whose centres are not outside.
-  Columns inside(double y, Columns columns) const {
+  // The columns among the first `count` that are not outside.
+  Columns inside(int count) const {
     constexpr int kFew = 6;  // that are tested faster than the crossings are computed
-    if (columns.last - columns.first > kFew) {
-      narrow(y, columns);
+    Columns columns{0, count - 1};
+    if (count > kFew) {
+      narrow(columns);
     }
-    while (columns.first <= columns.last && !is_inside(columns.first + 0.5, y)) {
+    while (columns.first <= columns.last && !is_inside(columns.first)) {
       ++columns.first;
     }
-    while (columns.first < columns.last && !is_inside(columns.last + 0.5, y)) {
+    while (columns.first < columns.last && !is_inside(columns.last)) {
       --columns.last;
     }
     return columns;
   }
 
-  double inverse_depth(double x, double y) const { return a_.z() + b(x, y) * ab_.z() + c(x, y) * ac_.z(); }
-  double depth_step() const { return depth_step_; }  // from one column to the next
+  double b(int column) const { return b_ + column * step_b_; }
+  double c(int column) const { return c_ + column * step_c_; }
 
  private:
-  double b(double x, double y) const { return ((x - a_.x()) * ac_.y() - (y - a_.y()) * ac_.x()) * scale_; }
-  double c(double x, double y) const { return (ab_.x() * (y - a_.y()) - ab_.y() * (x - a_.x())) * scale_; }
-
-  bool is_inside(double x, double y) const {
-    const double wb = b(x, y);
-    const double wc = c(x, y);
-    return 1.0 - wb - wc >= 0.0 && wb >= 0.0 && wc >= 0.0;
+  bool is_inside(int column) const {
+    const double wb = b(column);
+    const double wc = c(column);
+    return wb >= 0.0 && wc >= 0.0 && wb + wc <= 1.0;
   }
 
   // Leaves out columns that are more than a pixel outside, so that rounding decides about none: a long thin triangle
   // costs its length, not its bounding box.
-  void narrow(double y, Columns& columns) const {
-    const double x = columns.first + 0.5;
-    const double wb = b(x, y);
-    const double wc = c(x, y);
-    const int first = columns.first;
-    cut(wb, step_b_, first, columns);
-    cut(wc, step_c_, first, columns);
-    cut(1.0 - wb - wc, -step_b_ - step_c_, first, columns);
+  void narrow(Columns& columns) const {
+    cut(b_, step_b_, columns);
+    cut(c_, step_c_, columns);
+    cut(1.0 - b_ - c_, -step_b_ - step_c_, columns);
   }
 
-  // The same for one weight that is `weight` at column `first` and changes by `step` a column.
-  static void cut(double weight, double step, int first, Columns& columns) {
+  // The same for one weight that is `weight` at column 0 and changes by `step` a column.
+  static void cut(double weight, double step, Columns& columns) {
     if (step == 0.0) {
       return;
     }
-    const double to_zero = std::clamp(-weight / step, -2.0, 2.0 * kPixels);
-    const int at = first + static_cast<int>(to_zero);
+    const int at = static_cast<int>(std::clamp(-weight / step, -2.0, 2.0 * kPixels));
     if (step > 0.0) {
       columns.first = std::max(columns.first, at - 2);
     } else {
@@ -161,13 +147,10 @@ class Weights {
     }
   }
 
-  Vec3 a_;
-  Vec3 ab_;
-  Vec3 ac_;
-  double scale_;
-  double step_b_;
+  double b_;  // the weights of the second and third corner at column 0
+  double c_;
+  double step_b_;  // from one column to the next
   double step_c_;
-  double depth_step_;
 };
 
 // What a camera sees: at each pixel the nearest face and one over its depth.
@@ -193,12 +176,21 @@ class DepthBuffer {
     if (twice_area == 0.0) {
       return;
     }
-    const Weights weights(a, b, c, 1.0 / twice_area);  // the area's sign makes those of either winding positive inside
+    const Vec3 ab = b - a;
+    const Vec3 ac = c - a;
+    const double scale = 1.0 / twice_area;  // its sign makes the weights of either winding positive inside
+    const double step_b = ac.y() * scale;
+    const double step_c = -ab.y() * scale;
+    const double x = first_column + 0.5 - a.x();
+    const double depth_step = step_b * ab.z() + step_c * ac.z();
     for (int row = first_row; row <= last_row; ++row) {
-      const Columns inside = weights.inside(row + 0.5, {first_column, last_column});
-      const double nearest = weights.inverse_depth(inside.first + 0.5, row + 0.5);
+      const double y = row + 0.5 - a.y();
+      const RowWeights weights((x * ac.y() - y * ac.x()) * scale, (ab.x() * y - ab.y() * x) * scale, step_b, step_c);
+      const Columns inside = weights.inside(last_column - first_column + 1);
+      const double nearest = a.z() + weights.b(inside.first) * ab.z() + weights.c(inside.first) * ac.z();
+      const int pixel = row * kPixels + first_column;
       for (int column = inside.first; column <= inside.last; ++column) {
-        keep_nearest(face, row * kPixels + column, nearest + (column - inside.first) * weights.depth_step());
+        keep_nearest(face, pixel + column, nearest + (column - inside.first) * depth_step);
       }
     }
   }
@@ -207,9 +199,14 @@ class DepthBuffer {
   double inverse_depth(int pixel) const { return inverse_depth_[pixel]; }
 
  private:
-  // The range of pixels whose centres lie between two image coordinates, cut to the image.
-  static int first_pixel(double low) { return std::max(0, static_cast<int>(std::ceil(low - 0.5))); }
-  static int last_pixel(double high) { return std::min(kPixels - 1, static_cast<int>(std::floor(high - 0.5))); }
+  // The range of pixels whose centres lie between two image coordinates, cut to the image. (std::ceil and std::floor are
+  // function calls on the processors that this is compiled for.)
+  static int first_pixel(double low) {
+    const double at = std::clamp(low - 0.5, 0.0, double{kPixels});
+    const int below = static_cast<int>(at);
+    return below < at ? below + 1 : below;
+  }
+  static int last_pixel(double high) { return static_cast<int>(std::clamp(high + 0.5, 0.0, double{kPixels})) - 1; }
 
   void keep_nearest(std::uint32_t face, int pixel, double inverse_depth) {
     if (inverse_depth > inverse_depth_[pixel]) {

@@ -524,18 +524,24 @@ void finish_nearest(const Support& support, const CellLayout& layout, const std:
   const std::size_t columns = support.cell_columns;
   const std::size_t channel = support.cell_rows * columns;
   alignas(64) float line[2][RowShares::kRoom];
+  const bool direct = columns % hn::Lanes(l) == 0;  // whole vectors end where the row ends
   for (std::size_t i = 0; i < support.cell_rows; ++i) {
     const std::int64_t* row = cells + i * layout.row_stride * (support.soft ? 2 : 1);
+    float* const first = direct ? image + i * columns : line[0];
+    float* const second = direct ? image + channel + i * columns : line[1];
     for (std::size_t j = 0; j < columns; j += hn::Lanes(l)) {
       if (support.soft) {
         VL plain, weighted;
         hn::LoadInterleaved2(l, row + 2 * j, plain, weighted);
         weighted = hn::Sub(weighted, hn::Sub(hn::ShiftLeft<7>(plain), plain));
-        write_values(weighted, kUnit, line[0] + j);
-        write_values(hn::Sub(plain, weighted), kUnit, line[1] + j);
+        write_values(weighted, kUnit, first + j);
+        write_values(hn::Sub(plain, weighted), kUnit, second + j);
       } else {
-        write_values(hn::Load(l, row + j), kUnit, line[0] + j);
+        write_values(hn::Load(l, row + j), kUnit, first + j);
       }
+    }
+    if (direct) {
+      continue;
     }
     std::copy_n(line[0], columns, image + i * columns);
     if (support.soft) {

@@ -136,7 +136,7 @@ nlohmann::ordered_json race_case(const Case& it, int rounds) {
   nlohmann::ordered_json result = race(contestants, rounds);
   result["points"] = it.cloud.points.size();
   result["pairs_per_second"] =
-      result["spincat_johnson"]["per_second"].get<double>() * static_cast<double>(it.cloud.points.size());
+      result["spincat"]["per_second"].get<double>() * static_cast<double>(it.cloud.points.size());
   if (result.contains("pcl")) {
     result["times_pcl"] = result["spincat"]["per_second"].get<double>() / result["pcl"]["per_second"].get<double>();
   }

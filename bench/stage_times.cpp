@@ -5,66 +5,49 @@
 
 #include "harness.h"
 #include "sections.h"
-#include "spincat/encode/encoding.h"
+#include "spincat/geometry/random.h"
 #include "spincat/io/read_object.h"
-#include "spincat/prepare/prepare.h"
-#include "spincat/spin/spin_images.h"
+#include "spincat/judge/judge_list.h"
+#include "spincat/pipeline/describe.h"
 
 namespace spincat::bench {
 namespace {
 
-struct Recipe {
-  std::string name;
-  PrepareSettings prepare;
-  SpinImageParams spin;
-  std::string encoding;
-};
-
-std::vector<Recipe> recipes() {
-  Recipe best{"default", {}, {}, "pooled-pyramid"};
-  best.spin.image_width = 40;
-  best.spin.bin_size = 0.05;
-  best.spin.binning = Binning::nearest;
-  best.spin.angle_test = AngleTest::soft;
-  Recipe paper{"paper, 2048 samples", {}, {}, "concatenation"};
-  paper.prepare.surface = SurfaceKind::samples;
-  paper.prepare.spin_points = 100;
-  paper.spin.image_width = 20;
-  paper.spin.bin_size = 0.1;
-  Recipe vertices = paper;
-  vertices.name = "paper, vertices";
-  vertices.prepare.surface = SurfaceKind::vertices;
-  return {best, paper, vertices};
+// Presets, and the paper's over points drawn from the faces instead of the vertices.
+std::map<std::string, Settings> recipes() {
+  Settings samples = preset("paper");
+  samples.prepare.surface = SurfaceKind::samples;
+  return {{"default", preset("default")}, {"paper, 2048 samples", samples}, {"paper", preset("paper")}};
 }
 
-// Milliseconds of CPU by stage for one object.
-std::map<std::string, double> time_object(const Object& object, const Recipe& recipe) {
-  std::map<std::string, double> stages;
-  double last = seconds(CLOCK_PROCESS_CPUTIME_ID);
-  const auto stamp = [&](const std::string& stage) {
-    const double now = seconds(CLOCK_PROCESS_CPUTIME_ID);
-    stages[stage] = 1e3 * (now - last);
-    stages["total"] += stages[stage];
-    last = now;
-  };
-  const PreparedObject prepared = prepare(object, recipe.prepare, 1);
-  stamp("prepare");
-  const std::unique_ptr<Encoding> encoding = make_encoding(recipe.encoding);
-  const auto sums = encoding->begin(prepared.surface, prepared.spin_points, recipe.spin);
-  std::vector<double> values(sums->size(), 0.0);
-  stamp("encode");
-  double encode = stages["encode"];
-  make_spin_images(prepared.surface, prepared.spin_points, recipe.spin, [&](const SpinImageBlock& block) {
-    const double before = seconds(CLOCK_PROCESS_CPUTIME_ID);
-    sums->accumulate(block, values);
-    encode += 1e3 * (seconds(CLOCK_PROCESS_CPUTIME_ID) - before);
-  });
-  stamp("spin");
-  stages["spin"] -= encode - stages["encode"];
-  sums->finish(values);
-  stamp("finish");
-  stages["encode"] = encode + stages["finish"];
-  stages.erase("finish");
+// Judges of six categories: what they have learned does not change how long they take.
+JudgeList six_categories(std::size_t feature_length) {
+  constexpr std::uint32_t kCategories = 6;
+  Random random(3);
+  std::vector<Judge> judges(all_pairs(kCategories).size());
+  for (Judge& judge : judges) {
+    judge.weights.resize(static_cast<Eigen::Index>(feature_length));
+    for (float& weight : judge.weights) {
+      weight = static_cast<float>(random.uniform(-1.0, 1.0));
+    }
+  }
+  return JudgeList::fold(kCategories, judges);
+}
+
+// Milliseconds by stage for one object.
+std::map<std::string, double> time_object(const Object& object, const Settings& settings) {
+  StageSeconds spent;
+  const FeatureVector features = describe(object, settings, 0, &spent);
+  const JudgeList judges = six_categories(features.values.size());
+  const double start = seconds(CLOCK_MONOTONIC);
+  judges.vote(features.values);
+  spent.judge = seconds(CLOCK_MONOTONIC) - start;
+  std::map<std::string, double> stages = {
+      {"prepare", spent.prepare}, {"spin", spent.spin}, {"encode", spent.encode}, {"judge", spent.judge}};
+  for (auto& [stage, time] : stages) {
+    time *= 1e3;
+  }
+  stages["total"] = stages["prepare"] + stages["spin"] + stages["encode"] + stages["judge"];
   return stages;
 }
 
@@ -90,23 +73,21 @@ nlohmann::ordered_json stage_times(const std::filesystem::path& folder, int roun
     read.push_back(1e3 * (seconds(CLOCK_PROCESS_CPUTIME_ID) - start));
   }
   nlohmann::ordered_json result = {{"objects", objects.size()}, {"read", Timing::median(read)}};
-  for (const Recipe& recipe : recipes()) {
+  for (const auto& [name, settings] : recipes()) {
     // Of each object the best round; of the objects the median.
     std::map<std::string, std::vector<double>> stages;
     for (const Object& object : objects) {
-      std::map<std::string, double> best = time_object(object, recipe);
+      std::map<std::string, double> best = time_object(object, settings);
       for (int round = 1; round < rounds; ++round) {
-        const std::map<std::string, double> again = time_object(object, recipe);
-        if (again.at("total") < best.at("total")) {
-          best = again;
-        }
+        best = std::min(best, time_object(object, settings),
+                        [](const auto& a, const auto& b) { return a.at("total") < b.at("total"); });
       }
       for (const auto& [stage, time] : best) {
         stages[stage].push_back(time);
       }
     }
     for (const auto& [stage, times] : stages) {
-      result[recipe.name][stage] = Timing::median(times);
+      result[name][stage] = Timing::median(times);
     }
   }
   return result;

@@ -53,17 +53,15 @@ HWY_INLINE VF load(const Bounds& bounds, std::size_t field, std::size_t k) {
   return hn::LoadU(F(), bounds.field[field].data() + k);
 }
 
-// Which of the N sets of points from k on may hold a point in the support. Never false where a point is accepted by the
-// rounded arithmetic of scan_group: kSlack is many times its rounding error. Bounds that are no numbers are kept.
-HWY_INLINE hn::Mask<F> may_be_seen(const Bounds& bounds, std::size_t k, const Support& support, const Probe& probe) {
+constexpr float kSlack = 1e-5F;  // many times the rounding error of scan_group, relative to what is rounded
+
+// Which of the N sets of points from k on may hold a point in the support by its place, the angle aside.
+HWY_INLINE hn::Mask<F> may_be_near(const Bounds& bounds, std::size_t k, const Support& support, const Probe& probe) {
   const F f;
-  const VF slack = hn::Set(f, 1e-5F);
   VF beta = hn::Zero(f);
   VF beta_half = hn::Zero(f);
   VF squared = hn::Zero(f);
   VF reach = hn::Zero(f);  // at least the distance of any point, by the sum of its components
-  VF cosine = hn::Zero(f);
-  VF cosine_half = slack;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const VF d = hn::Sub(load(bounds, Bounds::kX + axis, k), probe.p[axis]);
     const VF half = load(bounds, Bounds::kHalfX + axis, k);
@@ -71,26 +69,45 @@ HWY_INLINE hn::Mask<F> may_be_seen(const Bounds& bounds, std::size_t k, const Su
     beta_half = hn::Add(beta_half, hn::Mul(probe.size[axis], half));
     squared = hn::Add(squared, hn::Mul(d, d));
     reach = hn::Add(reach, hn::Add(hn::Abs(d), half));
-    const VF m = load(bounds, Bounds::kNormalX + axis, k);
-    const VF m_half = load(bounds, Bounds::kNormalHalfX + axis, k);
-    cosine = hn::Add(cosine, hn::Mul(probe.n[axis], m));
-    cosine_half =
-        hn::Add(cosine_half, hn::Mul(probe.size[axis], hn::Add(m_half, hn::Mul(slack, hn::Add(hn::Abs(m), m_half)))));
   }
-  beta_half = hn::Add(beta_half, hn::Mul(slack, reach));
+  const VF slack = hn::Mul(hn::Set(f, kSlack), reach);
+  beta_half = hn::Add(beta_half, slack);
   auto outside = hn::Or(hn::Gt(hn::Sub(beta, beta_half), hn::Set(f, support.most_beta)),
                         hn::Lt(hn::Add(beta, beta_half), hn::Set(f, support.least_beta)));
   if (probe.is_unit) {
     const VF most =
         hn::Add(hn::Sqrt(hn::Set(f, std::max(0.0F, support.most_alpha2))), load(bounds, Bounds::kRadius, k));
-    const VF alpha2 = hn::Sub(hn::Sub(squared, hn::Mul(beta, beta)), hn::Mul(slack, hn::Mul(reach, reach)));
+    const VF alpha2 = hn::Sub(hn::Sub(squared, hn::Mul(beta, beta)), hn::Mul(slack, reach));
     outside = hn::Or(outside, hn::Gt(alpha2, hn::Mul(hn::Set(f, 1.00001F), hn::Mul(most, most))));
   }
-  if (support.tests_angle) {
-    const VF nearest = support.convention == SpinConvention::pcl ? hn::Abs(cosine) : cosine;
-    outside = hn::Or(outside, hn::Lt(hn::Add(nearest, cosine_half), hn::Set(f, support.least_cosine)));
-  }
   return hn::Not(outside);
+}
+
+// Which of them may hold a point that passes the angle test.
+HWY_INLINE hn::Mask<F> may_face(const Bounds& bounds, std::size_t k, const Support& support, const Probe& probe) {
+  const F f;
+  const VF slack = hn::Set(f, kSlack);
+  VF cosine = hn::Zero(f);
+  VF cosine_half = slack;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const VF m = load(bounds, Bounds::kNormalX + axis, k);
+    const VF m_half = load(bounds, Bounds::kNormalHalfX + axis, k);
+    const VF rounding = hn::Mul(slack, hn::Add(hn::Abs(m), m_half));
+    cosine = hn::Add(cosine, hn::Mul(probe.n[axis], m));
+    cosine_half = hn::Add(cosine_half, hn::Mul(probe.size[axis], hn::Add(m_half, rounding)));
+  }
+  const VF nearest = support.convention == SpinConvention::pcl ? hn::Abs(cosine) : cosine;
+  return hn::Not(hn::Lt(hn::Add(nearest, cosine_half), hn::Set(f, support.least_cosine)));
+}
+
+// Which of the N sets of points from k on may hold a point in the support. Never false where a point is accepted by the
+// rounded arithmetic of scan_group. Bounds that are no numbers are kept.
+HWY_INLINE hn::Mask<F> may_be_seen(const Bounds& bounds, std::size_t k, const Support& support, const Probe& probe) {
+  const auto near = may_be_near(bounds, k, support, probe);
+  if (!support.tests_angle || hn::AllFalse(F(), near)) {
+    return near;
+  }
+  return hn::And(near, may_face(bounds, k, support, probe));
 }
 
 // Writes the numbers of the sets in [first, last) that may be seen to `seen`; returns how many. first is a multiple

@@ -13,8 +13,8 @@
 #include "messages.h"
 #include "options.h"
 #include "progress_bar.h"
+#include "spincat/dataset/object_files.h"
 #include "spincat/error.h"
-#include "spincat/io/read_object.h"
 #include "spincat/parallel/for_each.h"
 #include "spincat/report/json.h"
 #include "spincat/report/text.h"
@@ -42,13 +42,9 @@ struct Input {
 std::vector<Input> files_below(const fs::path& folder) {
   std::vector<Input> files;
   std::error_code error;
-  for (fs::recursive_directory_iterator it(folder, error), end; it != end && !error; it.increment(error)) {
-    std::error_code ignored;
-    if (it->is_regular_file(ignored) && is_object_file(it->path())) {
-      files.push_back({it->path(), {}});
-    }
+  for (const fs::path& file : object_files_below(folder, error)) {
+    files.push_back({file, {}});
   }
-  std::ranges::sort(files, {}, &Input::file);
   if (error) {
     files.push_back({folder, "a folder in it cannot be read: " + error.message()});
   } else if (files.empty()) {

@@ -5,9 +5,13 @@
 
 #include <memory>
 
+#include "command_line.h"
 #include "commands.h"
+#include "evaluate_options.h"
 #include "options.h"
 #include "progress_bar.h"
+#include "spincat/dataset/object_files.h"
+#include "spincat/error.h"
 #include "spincat/report/json.h"
 #include "spincat/report/text.h"
 #include "terminal.h"
@@ -19,48 +23,126 @@ constexpr std::size_t kPipeWidth = 160;  // a pipe is taken to be wide
 
 struct EvaluateArguments {
   DatasetArguments dataset;
-  SettingsArguments settings;
+  std::vector<std::filesystem::path> train;
+  std::vector<std::filesystem::path> test;
+  DatasetOptions test_options;
+  bool official = false;
+  TestArguments tested;
+  std::filesystem::path unknown;
+  std::filesystem::path unknown_models;
   EvaluateOptions options;
+  SettingsArguments settings;
   RunOptions run;
 };
 
+// Exactly one way of choosing what is learned from and what is tested.
+void check_protocol(const EvaluateArguments& a) {
+  if (a.train.empty() != a.test.empty()) {
+    throw InputError(a.train.empty() ? "--test asks for --train, too" : "--train asks for --test, too");
+  }
+  if (a.dataset.sources.empty() == a.train.empty()) {
+    throw InputError("evaluate asks for a DATASET, or for --train and --test");
+  }
+  if (int{a.official} + int{a.options.leave_one_out} + int{!a.train.empty()} > 1) {
+    throw InputError("--official, --leave-one-out and --train exclude each other");
+  }
+}
+
+Evaluation run_protocol(const EvaluateArguments& a, const Settings& settings, const EvaluateOptions& options,
+                        const Progress& progress) {
+  const DatasetOptions& learn = a.dataset.options;
+  if (!a.train.empty()) {
+    return evaluate_across(read_dataset(a.train, learn), read_dataset(a.test, a.test_options), settings, options,
+                           progress);
+  }
+  const Dataset dataset = read_dataset(a.dataset.sources, learn);
+  if (a.official) {
+    const Dataset test = testing_part(dataset);  // first: it refuses a data set without a split
+    return evaluate_across(training_part(dataset), test, settings, options, progress);
+  }
+  return evaluate(dataset, settings, options, progress);
+}
+
 int run_evaluate(const EvaluateArguments& arguments) {
+  check_protocol(arguments);
   const Settings settings = arguments.settings.settings();
   EvaluateOptions options = arguments.options;
+  options.test = arguments.tested.options();
   options.strict = arguments.dataset.strict;
   options.threads = arguments.run.thread_count();
-  const Dataset dataset = arguments.dataset.read();
+  if (!arguments.unknown.empty()) {
+    options.strangers = read_objects(arguments.unknown, arguments.unknown_models);
+  }
   Evaluation evaluation;
   {
     ProgressBar bar(arguments.run);
-    evaluation = evaluate(dataset, settings, options, bar.callback());
+    evaluation = run_protocol(arguments, settings, options, bar.callback());
   }
+  report_left_out(evaluation.left_out, arguments.run);
   report_skipped(evaluation.skipped, arguments.run);
   if (arguments.run.json) {
-    fmt::print("{}\n", evaluation_json(evaluation, settings));
+    fmt::print("{}\n", evaluation_json(evaluation, settings, options, command_line()));
   } else {
     fmt::print("{}", evaluation_text(evaluation, terminal_width(STDOUT_FILENO, kPipeWidth)));
   }
   return 0;
 }
 
+void add_across_options(CLI::App& command, EvaluateArguments& a) {
+  const std::string group = "Two data sets";
+  command.add_option("--train", a.train, "Learn from this data set (--models and --map are for it) ...")
+      ->group(group)
+      ->type_name("DATASET");
+  command
+      .add_option("--test", a.test,
+                  "... and test on that one, on the categories of the same names; the others are left out")
+      ->group(group)
+      ->type_name("DATASET");
+  command.add_option("--test-models", a.test_options.models, "As --models, for --test")
+      ->group(group)
+      ->type_name("FOLDER");
+  command.add_option("--test-map", a.test_options.category_map, "As --map, for --test")
+      ->group(group)
+      ->type_name("FILE");
+}
+
+void add_confidence_options(CLI::App& command, EvaluateArguments& a) {
+  const std::string group = "Confidence";
+  command
+      .add_flag("--confidence", a.options.measure_confidence,
+                "Measure how well the confidence tells right from wrong names (takes six times as long)")
+      ->group(group);
+  command
+      .add_option("--unknown", a.unknown,
+                  "Objects of none of the categories, a CSV file with the column path or a folder: measure how well "
+                  "the confidence tells known from unknown objects, too")
+      ->group(group)
+      ->type_name("DATA");
+  command.add_option("--unknown-models", a.unknown_models, "As --models, for --unknown")
+      ->group(group)
+      ->type_name("FOLDER");
+}
+
 }  // namespace
 
 Command add_evaluate(CLI::App& parent) {
   auto arguments = std::make_shared<EvaluateArguments>();
-  CLI::App* command =
-      parent.add_subcommand("evaluate", "Measure on repeated stratified splits how often the names are right");
+  CLI::App* command = parent.add_subcommand("evaluate", "Measure how often the names are right");
   command->footer(
       "Example:\n"
-      "  spincat evaluate furniture/ --splits 20\n"
-      "  spincat evaluate psb/ --map data/psb-furniture.csv --preset paper --json");
-  arguments->dataset.add_to(*command);
-  command->add_option("--splits", arguments->options.splits, "Random splits into training and test objects")
-      ->type_name("N")
-      ->capture_default_str();
-  command->add_option("--test", arguments->options.test_fraction, "Share of each category that is tested on")
-      ->type_name("SHARE")
-      ->capture_default_str();
+      "  spincat evaluate furniture/ --splits 40 --split-seeds 1-4\n"
+      "  spincat evaluate psb/ --map data/psb-furniture.csv --leave-one-out --json\n"
+      "  spincat evaluate --train psb/ --map data/psb-furniture.csv --test furniture/\n"
+      "Without --leave-one-out, --official or --train there are repeated random splits, stratified by category.");
+  arguments->dataset.add_to(*command, false);
+  add_split_options(*command, arguments->options);
+  command->add_flag("--leave-one-out", arguments->options.leave_one_out,
+                    "Test each object by judges that learned from all others");
+  command->add_flag("--official", arguments->official,
+                    "Use the data set's own split: learn from train, test on test (val is left out)");
+  add_across_options(*command, *arguments);
+  arguments->tested.add_to(*command);
+  add_confidence_options(*command, *arguments);
   arguments->settings.add_to(*command);
   arguments->run.add_to(*command);
   return [arguments] { return run_evaluate(*arguments); };

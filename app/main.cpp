@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "command_line.h"
 #include "commands.h"
 #include "interrupt.h"
 #include "messages.h"
@@ -83,6 +84,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   fill_closed_streams();
   catch_interrupts();
+  keep_command_line(argc, argv);
   try {
     return run(argc, argv);
   } catch (const InputError& error) {

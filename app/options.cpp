@@ -60,13 +60,13 @@ int RunOptions::thread_count() const {
   return spincat::thread_count(threads);
 }
 
-void DatasetArguments::add_to(CLI::App& command) {
+void DatasetArguments::add_to(CLI::App& command, bool required) {
   command
       .add_option("dataset", sources,
                   "A folder with one sub-folder per category, a CSV file with the columns path,category, or Princeton "
                   ".cla files; several are merged")
       ->type_name("DATASET")
-      ->required();
+      ->required(required);
   command.add_option("--models", options.models, "Where the models are that a CSV or .cla file names")
       ->type_name("FOLDER");
   command

@@ -29,7 +29,7 @@ struct DatasetArguments {
   DatasetOptions options;
   bool strict = false;
 
-  void add_to(CLI::App& command);
+  void add_to(CLI::App& command, bool required = true);
   Dataset read() const { return read_dataset(sources, options); }
 };
 

@@ -163,6 +163,41 @@ TEST_F(Command, EvaluateJsonHasThePromisedKeys) {
   EXPECT_GT(json.at("seconds").get<double>(), 0.0);
 }
 
+TEST_F(Command, EvaluateTellsHowToRepeatIt) {
+  make_shapes();
+  const std::string small = " --copies 0 --points 256 --spin-points 32 --json";
+  const Result splits = run("evaluate shapes --splits 2 --split-seeds 4,1-2" + small);
+  ASSERT_EQ(splits.code, 0) << splits.err;
+  const Json json = Json::parse(splits.out);
+  EXPECT_EQ(json.at("run").at("split_seeds").dump(), "[4,1,2]");
+  EXPECT_EQ(json.at("run").at("command").dump(),
+            R"(["spincat","evaluate","shapes","--splits","2","--split-seeds","4,1-2","--copies","0","--points","256",)"
+            R"("--spin-points","32","--json"])");
+  EXPECT_EQ(json.at("seeds").size(), 3U);
+  const Json alone = Json::parse(run("evaluate shapes --leave-one-out" + small).out);
+  EXPECT_EQ(alone.at("run").at("protocol"), "leave-one-out");
+  EXPECT_EQ(alone.at("confusion"), Json::parse("[[6, 0], [0, 6]]"));
+}
+
+TEST_F(Command, EvaluateLearnsFromOneDataSetAndTestsOnAnother) {
+  make_shapes();
+  dir_.write("list.csv", "path,category\nnew box.off,box\nnew-cone.off,cone\nnew-cone.off,cone\nlamp.off,lamp\n");
+  dir_.write("lamp.off", cone_off(1, 1));
+  const Result result =
+      run("evaluate --train shapes --test list.csv --unknown lamp --copies 0 --points 256 --spin-points 32 --json");
+  EXPECT_EQ(result.code, 2) << result.out;  // --unknown is missing
+  dir_.write("lamp/a.off", cone_off(3, 1));
+  const Result found =
+      run("evaluate --train shapes --test list.csv --unknown lamp --copies 0 --points 256 --spin-points 32 --json");
+  ASSERT_EQ(found.code, 0) << found.err;
+  const Json json = Json::parse(found.out);
+  EXPECT_EQ(json.at("confusion"), Json::parse("[[1, 0], [0, 1]]"));
+  EXPECT_EQ(json.at("run").at("test_dataset"), "list.csv");
+  EXPECT_EQ(json.at("left_out").dump(), R"([{"category":"lamp","reason":"is not in shapes"}])");
+  EXPECT_EQ(json.at("confidence").at("unknown_objects"), 1);
+  EXPECT_EQ(found.err, "spincat: category 'lamp' is not in shapes: left out\n");
+}
+
 TEST_F(Command, EvaluateWorksWithThePaperPreset) {
   make_shapes();
   const Result result = run("evaluate shapes --splits 2 --preset paper --bin-size 0.2rel --support-angle 90");
@@ -206,8 +241,20 @@ TEST_F(Command, WrongUseAndBadInputAreOneLineAndExitTwo) {
       {"train shapes -o x.spincat --bin-size 1inch", "--bin-size 1inch"},
       {"train shapes -o x.spincat --bin-size -1", "bin size -1"},
       {"train shapes -o x.spincat --encoding hash", "encoding 'hash'"},
-      {"evaluate shapes --splits 0", "splits 0"},
-      {"evaluate shapes --test 1.5", "1.5"},
+      {"evaluate shapes --splits 0", "--splits"},
+      {"evaluate shapes --test-share 1", "--test-share: expected more than 0 and less than 1"},
+      {"evaluate shapes --split-seeds 1-", "--split-seeds 1-: expected whole numbers"},
+      {"evaluate shapes --split-seeds 1,2,1-3", "--split-seeds 1,2,1-3: expected up to 1000 numbers, each once"},
+      {"evaluate shapes --min-objects 0", "--min-objects"},
+      {"evaluate shapes --test-as pudding", "--test-as 'pudding' is not known"},
+      {"evaluate shapes --noise 2", "--noise"},
+      {"evaluate", "evaluate asks for a DATASET, or for --train and --test"},
+      {"evaluate --train shapes", "--train asks for --test"},
+      {"evaluate shapes --train shapes --test shapes", "evaluate asks for a DATASET, or for --train and --test"},
+      {"evaluate --train shapes --test shapes", "is in both data sets"},
+      {"evaluate shapes --official --leave-one-out", "exclude each other"},
+      {"evaluate shapes --official", "shapes: has no split of its own"},
+      {"evaluate shapes --unknown absent", "absent: "},
       {"classify shapes.spincat", "files is required"},
       {"classify new-cone.off new-cone.off", "new-cone.off: is not a spincat"},
       {"classify shapes.spincat shapes.spincat", "shapes.spincat: is a spincat model, not an object"},

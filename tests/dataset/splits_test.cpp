@@ -64,8 +64,8 @@ TEST(Splits, HoldEachObjectOnceAndExactCounts) {
 }
 
 TEST(Splits, RoundTiesToEvenAndKeepAnObjectOnEitherSide) {
-  const auto tested = [](std::size_t objects, double fraction) {
-    return stratified_splits(Labels(objects, 7), 1, fraction, 1)[0].test.size();
+  const auto tested = [](std::size_t objects, double share) {
+    return stratified_splits(Labels(objects, 7), 1, share, 1)[0].test.size();
   };
   EXPECT_EQ(tested(5, 0.5), 2U);
   EXPECT_EQ(tested(7, 0.5), 4U);
@@ -109,14 +109,14 @@ TEST(Splits, TakeEachObjectAboutAsOften) {
 
 TEST(Splits, RefuseWhatCannotBe) {
   const Labels pair = {0, 0};
-  const auto error = [](const Labels& labels, int count, double fraction) {
-    return input_error([&] { stratified_splits(labels, count, fraction, 1); });
+  const auto error = [](const Labels& labels, int count, double share) {
+    return input_error([&] { stratified_splits(labels, count, share, 1); });
   };
-  EXPECT_EQ(error(pair, 1, 0.0), "the test fraction is 0; expected more than 0 and less than 1");
-  EXPECT_EQ(error(pair, 1, 1.0), "the test fraction is 1; expected more than 0 and less than 1");
+  EXPECT_EQ(error(pair, 1, 0.0), "test share 0 is out of range (more than 0 and less than 1)");
+  EXPECT_EQ(error(pair, 1, 1.0), "test share 1 is out of range (more than 0 and less than 1)");
   EXPECT_EQ(error(pair, 1, std::numeric_limits<double>::quiet_NaN()),
-            "the test fraction is nan; expected more than 0 and less than 1");
-  EXPECT_EQ(error(pair, 0, 0.5), "the number of splits is 0; expected 1 or more");
+            "test share nan is out of range (more than 0 and less than 1)");
+  EXPECT_EQ(error(pair, 0, 0.5), "number of splits 0 is out of range (1 to 10000)");
   EXPECT_EQ(error({0, 1}, 1, 0.5), "no category has two objects, one to train on and one to test on");
   EXPECT_EQ(error({}, 1, 0.5), "no category has two objects, one to train on and one to test on");
 }

@@ -367,13 +367,13 @@ TEST(Evaluate, OptionsOutOfRangeAreRefused) {
   EXPECT_EQ(input_error([&] { evaluate(shapes(), small_settings(), options); }),
             "number of splits 0 is out of range (1 to 10000)");
   options.splits = 2;
-  for (const double fraction : {0.0, 1.0, -0.5, std::nan("")}) {
-    options.test_fraction = fraction;
+  for (const double share : {0.0, 1.0, -0.5, std::nan("")}) {
+    options.test_share = share;
     bool started = false;
     EXPECT_NE(input_error([&] {
                 evaluate(shapes(), small_settings(), options,
                          [&](std::string_view, std::size_t, std::size_t) { started = true; });
-              }).find("test fraction"),
+              }).find("test share"),
               std::string::npos);
     EXPECT_FALSE(started) << "hours of work before the refusal";
   }

@@ -74,44 +74,6 @@ TEST(ErrorJson, ReplacesWhatIsNoUtf8) {
   EXPECT_EQ(parsed(error_json("caf\xE9.obj", "\xFF"))["file"], "caf\xEF\xBF\xBD.obj");
 }
 
-TEST(EvaluationJson, HasThePromisedKeys) {
-  Evaluation e;
-  e.dataset = "furniture";
-  e.categories = {"bed", "chair"};
-  e.object_counts = {2, 3};
-  e.skipped = {{"x.off", "why"}};
-  e.splits = 4;
-  e.mean_class_rate = {0.5, 0.1};
-  e.overall_rate = {0.25, 0.2};
-  e.confusion = {{1, 2}, {3, 4}};
-  e.seconds = {1, 2, 3, 4, 5};
-  e.wall_seconds = 6;
-  const Json json = parsed(evaluation_json(e, preset("paper")));
-  EXPECT_EQ(keys_of(json), (Keys{"dataset", "objects", "categories", "splits", "mean_class_rate", "mean_class_rate_std",
-                                 "overall_rate", "overall_rate_std", "confusion", "seconds", "object_counts",
-                                 "stage_seconds", "settings", "skipped"}));
-  EXPECT_EQ(json["dataset"], "furniture");
-  EXPECT_EQ(json["objects"], 5);
-  EXPECT_EQ(json["categories"], Json(e.categories));
-  EXPECT_EQ(json["splits"], 4);
-  EXPECT_EQ(json["mean_class_rate"], 0.5);
-  EXPECT_EQ(json["mean_class_rate_std"], 0.1);
-  EXPECT_EQ(json["overall_rate"], 0.25);
-  EXPECT_EQ(json["overall_rate_std"], 0.2);
-  EXPECT_EQ(json["confusion"].dump(), "[[1,2],[3,4]]");
-  EXPECT_EQ(json["seconds"], 6.0);
-  EXPECT_EQ(json["object_counts"], (Json{{"bed", 2}, {"chair", 3}}));
-  EXPECT_EQ(json["stage_seconds"],
-            (Json{{"read", 1.0}, {"prepare", 2.0}, {"spin", 3.0}, {"encode", 4.0}, {"judge", 5.0}}));
-  EXPECT_EQ(json["settings"], settings_to_json(preset("paper")));
-  EXPECT_EQ(json["skipped"].dump(), R"([{"file":"x.off","error":"why"}])");
-}
-
-TEST(EvaluationJson, OfNothingSkippedIsAnEmptyList) {
-  EXPECT_EQ(parsed(evaluation_json({}, preset("paper")))["skipped"].dump(), "[]");
-  EXPECT_EQ(parsed(evaluation_json({}, preset("paper")))["object_counts"].dump(), "{}");
-}
-
 TEST(ModelJson, HasThePromisedKeys) {
   const Json json = parsed(model_json("m.spincat", two_categories()));
   EXPECT_EQ(keys_of(json), (Keys{"file", "kind", "made_by", "dataset", "categories", "object_counts", "features",

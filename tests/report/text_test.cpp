@@ -89,8 +89,8 @@ Evaluation three_categories() {
   e.categories = {"chair", "étagère", "table\x1B"};
   e.object_counts = {10, 5, 1};
   e.splits = 4;
-  e.mean_class_rate = {0.75, 0.0256};
-  e.overall_rate = {0.8, 0.01};
+  e.mean_class_rate = {0.75, 0.0256, {0.7, 0.8}};
+  e.overall_rate = {0.8, 0.01, {0.75, 0.85}};
   e.confusion = {{7, 1, 0}, {2, 2, 0}, {0, 0, 0}};
   e.wall_seconds = 12.4;
   return e;
@@ -103,8 +103,9 @@ TEST(EvaluationText, IsTheConfusionMatrixInPerCent) {
             "étagère                    5     50       50       .\n"
             "table?                     1      .        .       .\n"
             "\n"
-            "mean-class rate  0.750 ± 0.026   (mean and standard deviation over 4 splits)\n"
-            "overall rate     0.800 ± 0.010   (16 objects, 3 categories, 12.4 s)\n");
+            "mean-class rate  0.750 ± 0.026   95 % interval 0.700 to 0.800\n"
+            "overall rate     0.800 ± 0.010   95 % interval 0.750 to 0.850\n"
+            "16 objects, 3 categories, mean and standard deviation over 4 splits, 12.4 s\n");
 }
 
 TEST(EvaluationText, FallsBackToListsWhereTheMatrixIsTooWide) {
@@ -128,6 +129,45 @@ TEST(EvaluationText, FallsBackWithoutAnyConfusion) {
   const std::string text = evaluation_text(e, 10);
   EXPECT_EQ(text.find("confused"), std::string::npos);
   EXPECT_NE(text.find("100 %"), std::string::npos);
+}
+
+std::string last_lines(const Evaluation& e) {
+  const std::string text = evaluation_text(e, 100);
+  return text.substr(text.find("\n\n") + 2);
+}
+
+TEST(EvaluationText, NamesTheSeedsWhereThereAreSeveral) {
+  Evaluation e = three_categories();
+  e.split_seeds = {3, 4};
+  e.seeds = {{3, {0.7, 0.0, {}}, {}}, {4, {0.8, 0.0, {}}, {}}};
+  EXPECT_EQ(last_lines(e),
+            "mean-class rate  0.750 ± 0.026   95 % interval 0.700 to 0.800\n"
+            "overall rate     0.800 ± 0.010   95 % interval 0.750 to 0.850\n"
+            "seeds 3, 4  0.700  0.800   (mean-class rate over 4 splits each)\n"
+            "16 objects, 3 categories, mean and standard deviation over 8 splits, 12.4 s\n");
+}
+
+TEST(EvaluationText, OfAnotherDataSetHasNoSpread) {
+  Evaluation e = three_categories();
+  e.protocol = Protocol::across;
+  e.test_dataset = "others\n";
+  e.test_object_counts = {1, 2, 3};
+  EXPECT_EQ(last_lines(e),
+            "mean-class rate  0.750   95 % interval 0.700 to 0.800\n"
+            "overall rate     0.800   95 % interval 0.750 to 0.850\n"
+            "16 objects, 3 categories, tested on 6 objects of others?, 12.4 s\n");
+  e.protocol = Protocol::leave_one_out;
+  EXPECT_NE(last_lines(e).find("3 categories, each object named by judges taught on all others, "), std::string::npos);
+}
+
+TEST(EvaluationText, TellsWhatTheConfidenceTells) {
+  Evaluation e = three_categories();
+  e.confidence = ConfidenceMeasure{0.9, 0.8, 0.7, 0};
+  EXPECT_NE(last_lines(e).find("confidence       0.700 on average; area under the curve 0.900 for right or wrong\n"),
+            std::string::npos);
+  e.confidence->strangers = 5;
+  EXPECT_NE(last_lines(e).find("0.900 for right or wrong, 0.800 for known or unknown (5 unknown objects)\n"),
+            std::string::npos);
 }
 
 TEST(BallotText, ShowsTheWinnersJudgesFirstThenByStrength) {

@@ -29,11 +29,11 @@ std::vector<std::vector<std::uint32_t>> objects_by_category(std::span<const std:
   return result;
 }
 
-std::size_t test_count(std::size_t objects, double test_fraction) {
+std::size_t test_count(std::size_t objects, double test_share) {
   if (objects < 2) {
     return 0;
   }
-  const double wanted = std::nearbyint(static_cast<double>(objects) * test_fraction);
+  const double wanted = std::nearbyint(static_cast<double>(objects) * test_share);
   return std::clamp<std::size_t>(static_cast<std::size_t>(wanted), 1, objects - 1);
 }
 
@@ -43,12 +43,12 @@ void sort_parts(Split& split) {
 }
 
 // Takes the categories by value: they are shuffled from the same state for each split.
-Split random_split(std::vector<std::vector<std::uint32_t>> categories, double test_fraction, std::uint64_t seed) {
+Split random_split(std::vector<std::vector<std::uint32_t>> categories, double test_share, std::uint64_t seed) {
   Random random(seed);
   Split split;
   for (std::vector<std::uint32_t>& objects : categories) {
     random.shuffle(objects);
-    const auto middle = objects.begin() + static_cast<std::ptrdiff_t>(test_count(objects.size(), test_fraction));
+    const auto middle = objects.begin() + static_cast<std::ptrdiff_t>(test_count(objects.size(), test_share));
     split.test.insert(split.test.end(), objects.begin(), middle);
     split.train.insert(split.train.end(), middle, objects.end());
   }
@@ -58,14 +58,18 @@ Split random_split(std::vector<std::vector<std::uint32_t>> categories, double te
 
 }  // namespace
 
-std::vector<Split> stratified_splits(std::span<const std::uint32_t> labels, int count, double test_fraction,
+void check_splits(int count, double test_share) {
+  if (count < 1 || count > kMostSplits) {
+    throw InputError(fmt::format("number of splits {} is out of range (1 to {})", count, kMostSplits));
+  }
+  if (!(test_share > 0.0 && test_share < 1.0)) {
+    throw InputError(fmt::format("test share {} is out of range (more than 0 and less than 1)", test_share));
+  }
+}
+
+std::vector<Split> stratified_splits(std::span<const std::uint32_t> labels, int count, double test_share,
                                      std::uint64_t seed) {
-  if (!(test_fraction > 0.0 && test_fraction < 1.0)) {
-    throw InputError(fmt::format("the test fraction is {}; expected more than 0 and less than 1", test_fraction));
-  }
-  if (count < 1) {
-    throw InputError(fmt::format("the number of splits is {}; expected 1 or more", count));
-  }
+  check_splits(count, test_share);
   const auto categories = objects_by_category(labels);
   if (std::none_of(categories.begin(), categories.end(), [](const auto& objects) { return objects.size() >= 2; })) {
     throw InputError("no category has two objects, one to train on and one to test on");
@@ -73,7 +77,7 @@ std::vector<Split> stratified_splits(std::span<const std::uint32_t> labels, int 
   const std::uint64_t stream = derive_seed(seed, kSplitsPurpose);
   std::vector<Split> splits;
   for (int i = 0; i < count; ++i) {
-    splits.push_back(random_split(categories, test_fraction, derive_seed(stream, static_cast<std::uint64_t>(i))));
+    splits.push_back(random_split(categories, test_share, derive_seed(stream, static_cast<std::uint64_t>(i))));
   }
   return splits;
 }

@@ -13,14 +13,20 @@ struct Split {
   std::vector<std::uint32_t> test;
 };
 
-// `count` independent random splits. Of every category with n objects, round(n * test_fraction) go to the test part
+inline constexpr int kMostSplits = 10'000;
+
+// Throws InputError unless 1 <= count <= kMostSplits and 0 < test_share < 1: what stratified_splits asks for, to be
+// checked before hours of work.
+void check_splits(int count, double test_share);
+
+// `count` independent random splits. Of every category with n objects, round(n * test_share) go to the test part
 // (ties to even), but at least 1 and at most n - 1; a category with one object is only ever trained on.
 //
-// `labels` holds the category of each object. Deterministic: the same labels, count, fraction and seed give the same
+// `labels` holds the category of each object. Deterministic: the same labels, count, share and seed give the same
 // splits on every machine, and split i does not depend on `count`.
 //
-// Throws InputError unless 0 < test_fraction < 1, count > 0, and some category has two objects.
-std::vector<Split> stratified_splits(std::span<const std::uint32_t> labels, int count, double test_fraction,
+// Throws InputError as check_splits does, and unless some category has two objects.
+std::vector<Split> stratified_splits(std::span<const std::uint32_t> labels, int count, double test_share,
                                      std::uint64_t seed);
 
 // Cuts the objects into `folds` stratified parts that together hold each object once as a test object (k-fold cross-

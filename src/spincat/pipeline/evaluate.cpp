@@ -1,75 +1,87 @@
 #include "spincat/pipeline/evaluate.h"
 
-#include <fmt/format.h>
-
-#include <cmath>
+#include <algorithm>
 #include <cstddef>
+#include <mutex>
 #include <numeric>
 
 #include "spincat/dataset/splits.h"
-#include "spincat/error.h"
-#include "spincat/pipeline/feature_table.h"
+#include "spincat/parallel/for_each.h"
+#include "spincat/pipeline/roc.h"
 #include "spincat/pipeline/stopwatch.h"
 #include "spincat/pipeline/teach.h"
+#include "spincat/pipeline/trial.h"
 
 namespace spincat {
 namespace {
 
-using Confusion = std::vector<std::vector<std::uint32_t>>;
-
-void check(const EvaluateOptions& options) {
-  if (options.splits < 1 || options.splits > 10'000) {
-    throw InputError(fmt::format("number of splits {} is out of range (1 to 10000)", options.splits));
-  }
-  if (!(options.test_fraction > 0.0 && options.test_fraction < 1.0)) {
-    throw InputError(fmt::format("test fraction {} is out of range (between 0 and 1)", options.test_fraction));
-  }
+std::vector<std::uint64_t> seeds_of(const EvaluateOptions& options, const Settings& settings) {
+  return options.split_seeds.empty() ? std::vector{settings.seed} : options.split_seeds;
 }
 
-Confusion judge_split(const FeatureTable& table, const Eigen::MatrixXf& gram, const Split& split,
-                      const JudgeSettings& settings, int threads) {
-  const std::size_t n = table.categories.size();
-  const JudgeList judges = teach_judges(table, gram, split.train, settings, threads, Progress{});
-  Confusion confusion(n, std::vector<std::uint32_t>(n, 0));
-  for (const std::uint32_t object : split.test) {
-    const Ballot ballot = judges.vote(table.features_of(object));
-    ++confusion[table.objects[object].category][ballot.winner];
+// One split for each object, in which it alone is tested; none for the only object of its category.
+std::vector<Split> leave_one_out(const FeatureTable& table) {
+  const std::vector<std::uint32_t> counts = table.object_counts();
+  std::vector<Split> splits;
+  for (std::uint32_t tested = 0; tested < table.objects.size(); ++tested) {
+    if (counts[table.objects[tested].category] < 2) {
+      continue;
+    }
+    Split split{{}, {tested}};
+    for (std::uint32_t other = 0; other < table.objects.size(); ++other) {
+      if (other != tested) {
+        split.train.push_back(other);
+      }
+    }
+    splits.push_back(std::move(split));
   }
-  return confusion;
+  return splits;
 }
 
-// The mean over the categories that were tested of the share of their objects that were named right.
-double mean_class_rate(const Confusion& confusion) {
-  double sum = 0.0;
-  int tested = 0;
-  for (std::size_t truth = 0; truth < confusion.size(); ++truth) {
-    const auto all = std::accumulate(confusion[truth].begin(), confusion[truth].end(), 0.0);
-    if (all > 0.0) {
-      sum += confusion[truth][truth] / all;
-      ++tested;
+Split everything_against(const FeatureTable& table, const TestTable& tested) {
+  Split split{std::vector<std::uint32_t>(table.objects.size()), std::vector<std::uint32_t>(tested.objects.size())};
+  std::iota(split.train.begin(), split.train.end(), 0U);
+  std::iota(split.test.begin(), split.test.end(), 0U);
+  return split;
+}
+
+// All splits, those of the first seed first.
+std::vector<Split> splits_of(const EvaluationData& data, const Settings& settings, const EvaluateOptions& options) {
+  std::vector<Split> splits;
+  if (data.across) {
+    splits = {everything_against(data.table, *data.tested)};
+  } else if (options.leave_one_out) {
+    splits = leave_one_out(data.table);
+  } else {
+    const std::vector<std::uint32_t> labels = data.table.object_labels();
+    for (const std::uint64_t seed : seeds_of(options, settings)) {
+      std::ranges::move(stratified_splits(labels, options.splits, options.test_share, seed),
+                        std::back_inserter(splits));
     }
   }
-  return tested > 0 ? sum / tested : 0.0;
+  for (Split& split : splits) {  // what could not be described in the form it is tested in
+    std::erase_if(split.test, [&](std::uint32_t i) { return data.tested && !data.tested->problems[i].empty(); });
+  }
+  return splits;
 }
 
-double overall_rate(const Confusion& confusion) {
-  double right = 0.0;
-  double all = 0.0;
-  for (std::size_t truth = 0; truth < confusion.size(); ++truth) {
-    right += confusion[truth][truth];
-    all = std::accumulate(confusion[truth].begin(), confusion[truth].end(), all);
-  }
-  return all > 0.0 ? right / all : 0.0;
-}
-
-Rate rate_over(const std::vector<double>& values) {
-  const auto n = static_cast<double>(values.size());
-  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
-  double squares = 0.0;
-  for (const double v : values) {
-    squares += (v - mean) * (v - mean);
-  }
-  return {mean, n > 1.0 ? std::sqrt(squares / (n - 1.0)) : 0.0};
+std::vector<Trial> run_trials(const EvaluationData& data, const std::vector<Split>& splits, const Settings& settings,
+                              const EvaluateOptions& options, const Progress& progress) {
+  const bool confidence = options.measure_confidence || !options.strangers.empty();
+  const Eigen::MatrixXf gram = shared_gram(data.table, options.threads);
+  std::vector<Trial> trials(splits.size());
+  const int threads_each = splits.size() == 1 ? options.threads : 1;
+  std::mutex mutex;
+  std::size_t done = 0;
+  for_each_index(splits.size(), options.threads, [&](std::size_t i) {
+    trials[i] = run_trial(data, gram, splits[i], settings, confidence, threads_each);
+    const std::lock_guard lock(mutex);
+    ++done;
+    if (progress) {
+      progress("judging splits", done, splits.size());
+    }
+  });
+  return trials;
 }
 
 void add(const Confusion& from, Confusion& to) {
@@ -80,44 +92,160 @@ void add(const Confusion& from, Confusion& to) {
   }
 }
 
+SeedRates rates_of(std::span<const Trial> trials, std::uint64_t seed, double test_share) {
+  std::vector<double> class_rates;
+  std::vector<double> overall_rates;
+  for (const Trial& trial : trials) {
+    class_rates.push_back(mean_class_rate(trial.confusion));
+    overall_rates.push_back(overall_rate(trial.confusion));
+  }
+  return {seed, rate_over_splits(class_rates, test_share), rate_over_splits(overall_rates, test_share)};
+}
+
+// Of one category over the splits that tested it.
+Rate category_rate(std::span<const Trial> trials, std::size_t category, double test_share) {
+  std::vector<double> rates;
+  for (const Trial& trial : trials) {
+    const std::vector<std::uint32_t>& row = trial.confusion[category];
+    if (const double all = std::accumulate(row.begin(), row.end(), 0.0); all > 0.0) {
+      rates.push_back(row[category] / all);
+    }
+  }
+  return rates.empty() ? Rate{} : rate_over_splits(rates, test_share);
+}
+
+void fill_rates(std::span<const Trial> trials, const EvaluateOptions& options, Evaluation& result) {
+  if (result.protocol == Protocol::splits) {
+    const auto each = static_cast<std::size_t>(result.splits);
+    for (std::size_t s = 0; s < result.split_seeds.size(); ++s) {
+      result.seeds.push_back(rates_of(trials.subspan(s * each, each), result.split_seeds[s], options.test_share));
+    }
+    const SeedRates all = rates_of(trials, 0, options.test_share);
+    result.mean_class_rate = all.mean_class_rate;
+    result.overall_rate = all.overall_rate;
+    for (std::size_t c = 0; c < result.categories.size(); ++c) {
+      result.category_rates.push_back(category_rate(trials, c, options.test_share));
+    }
+    return;
+  }
+  result.mean_class_rate = pooled_mean_class_rate(result.confusion);
+  result.overall_rate = pooled_overall_rate(result.confusion);
+  for (std::size_t c = 0; c < result.categories.size(); ++c) {
+    const std::vector<std::uint32_t>& row = result.confusion[c];
+    const auto all = std::accumulate(row.begin(), row.end(), std::uint64_t{0});
+    const double share = all > 0 ? static_cast<double>(row[c]) / static_cast<double>(all) : 0.0;
+    result.category_rates.push_back({share, 0.0, wilson_interval(row[c], all)});
+  }
+}
+
+ConfidenceMeasure measure_of(std::span<const Trial> trials) {
+  ConfidenceMeasure measure;
+  std::vector<double> right;
+  std::vector<double> wrong;
+  std::vector<double> strangers;
+  double known_or_unknown = 0.0;
+  for (const Trial& trial : trials) {
+    std::vector<double> known = trial.right;
+    known.insert(known.end(), trial.wrong.begin(), trial.wrong.end());
+    known_or_unknown += area_under_curve(known, trial.strangers);
+    right.insert(right.end(), trial.right.begin(), trial.right.end());
+    wrong.insert(wrong.end(), trial.wrong.begin(), trial.wrong.end());
+    measure.strangers = static_cast<std::uint32_t>(trial.strangers.size());
+  }
+  measure.right_or_wrong = area_under_curve(right, wrong);
+  measure.known_or_unknown = known_or_unknown / static_cast<double>(trials.size());
+  const double sum =
+      std::accumulate(right.begin(), right.end(), 0.0) + std::accumulate(wrong.begin(), wrong.end(), 0.0);
+  measure.mean_confidence = sum / static_cast<double>(std::max<std::size_t>(1, right.size() + wrong.size()));
+  return measure;
+}
+
+void list_problems(const TestTable& tested, std::vector<SkippedObject>& skipped) {
+  for (std::size_t i = 0; i < tested.objects.size(); ++i) {
+    if (!tested.problems[i].empty()) {
+      skipped.push_back({tested.objects[i].file, tested.problems[i]});
+    }
+  }
+}
+
+std::vector<DatasetObject> described_objects(const TestTable& tested) {
+  std::vector<DatasetObject> objects;
+  for (std::size_t i = 0; i < tested.objects.size(); ++i) {
+    if (tested.problems[i].empty()) {
+      objects.push_back(tested.objects[i]);
+    }
+  }
+  return objects;
+}
+
+// What the objects are, before any of them is judged.
+Evaluation facts_of(const EvaluationData& data, const EvaluateOptions& options) {
+  Evaluation result;
+  result.dataset = data.dataset;
+  result.test_dataset = data.test_dataset;
+  result.protocol = data.across             ? Protocol::across
+                    : options.leave_one_out ? Protocol::leave_one_out
+                                            : Protocol::splits;
+  result.categories = data.table.categories;
+  result.object_counts = data.table.object_counts();
+  result.list_checksum = list_checksum(data.table.objects, data.table.categories);
+  if (data.across) {
+    const std::vector<DatasetObject> tested = described_objects(*data.tested);
+    result.test_object_counts.assign(result.categories.size(), 0);
+    for (const DatasetObject& object : tested) {
+      ++result.test_object_counts[object.category];
+    }
+    result.test_list_checksum = list_checksum(tested, data.table.categories);
+  }
+  result.left_out = data.left_out;
+  result.skipped = data.table.skipped;
+  result.seconds = data.table.seconds;
+  for (const TestTable* tested : {data.tested ? &*data.tested : nullptr, &data.strangers}) {
+    if (tested != nullptr) {
+      list_problems(*tested, result.skipped);
+      result.seconds += tested->seconds;
+    }
+  }
+  std::ranges::stable_sort(result.skipped, {}, &SkippedObject::file);
+  return result;
+}
+
 }  // namespace
+
+Evaluation judge_evaluation(const EvaluationData& data, const Settings& settings, const EvaluateOptions& options,
+                            const Progress& progress) {
+  options.validate();
+  Stopwatch watch;
+  const std::vector<Split> splits = splits_of(data, settings, options);
+  Evaluation result = facts_of(data, options);
+  result.splits = result.protocol == Protocol::splits ? options.splits : 1;
+  if (result.protocol == Protocol::splits) {
+    result.split_seeds = seeds_of(options, settings);
+  }
+  const std::vector<Trial> trials = run_trials(data, splits, settings, options, progress);
+  const std::size_t n = result.categories.size();
+  result.confusion.assign(n, std::vector<std::uint32_t>(n, 0));
+  for (const Trial& trial : trials) {
+    add(trial.confusion, result.confusion);
+  }
+  fill_rates(trials, options, result);
+  if (options.measure_confidence || !options.strangers.empty()) {
+    result.confidence = measure_of(trials);
+  }
+  const double judging = watch.lap();
+  result.seconds.judge += judging;
+  result.wall_seconds = data.wall_seconds + judging;
+  return result;
+}
 
 Evaluation evaluate(const Dataset& dataset, const Settings& settings, const EvaluateOptions& options,
                     const Progress& progress) {
-  check(options);
-  Stopwatch whole;
-  const FeatureTable table = describe_dataset(dataset, settings, options.strict, options.threads, progress);
-  const std::vector<std::uint32_t> labels = table.object_labels();
-  const std::vector<Split> splits = stratified_splits(labels, options.splits, options.test_fraction, settings.seed);
+  return judge_evaluation(describe_for_evaluation(dataset, settings, options, progress), settings, options, progress);
+}
 
-  Stopwatch watch;
-  const Eigen::MatrixXf gram = shared_gram(table, options.threads);
-  const std::size_t n = table.categories.size();
-  Evaluation result;
-  result.confusion.assign(n, std::vector<std::uint32_t>(n, 0));
-  std::vector<double> class_rates;
-  std::vector<double> overall_rates;
-  for (const Split& split : splits) {
-    const Confusion confusion = judge_split(table, gram, split, settings.judge, options.threads);
-    class_rates.push_back(mean_class_rate(confusion));
-    overall_rates.push_back(overall_rate(confusion));
-    add(confusion, result.confusion);
-    if (progress) {
-      progress("judging splits", class_rates.size(), splits.size());
-    }
-  }
-
-  result.dataset = dataset.name;
-  result.categories = table.categories;
-  result.object_counts = table.object_counts();
-  result.skipped = table.skipped;
-  result.splits = options.splits;
-  result.mean_class_rate = rate_over(class_rates);
-  result.overall_rate = rate_over(overall_rates);
-  result.seconds = table.seconds;
-  result.seconds.judge += watch.lap();
-  result.wall_seconds = whole.lap();
-  return result;
+Evaluation evaluate_across(const Dataset& train, const Dataset& test, const Settings& settings,
+                           const EvaluateOptions& options, const Progress& progress) {
+  return judge_evaluation(describe_across(train, test, settings, options, progress), settings, options, progress);
 }
 
 }  // namespace spincat

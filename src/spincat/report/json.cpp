@@ -1,42 +1,12 @@
 #include "spincat/report/json.h"
 
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 #include "spincat/pipeline/settings_json.h"
+#include "spincat/report/json_parts.h"
 
 namespace spincat {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-std::string line(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-Json stage_seconds(const StageSeconds& seconds) {
-  return {{"read", seconds.read},
-          {"prepare", seconds.prepare},
-          {"spin", seconds.spin},
-          {"encode", seconds.encode},
-          {"judge", seconds.judge}};
-}
-
-Json skipped_objects(const std::vector<SkippedObject>& skipped) {
-  Json list = Json::array();
-  for (const SkippedObject& each : skipped) {
-    list.push_back({{"file", each.file.string()}, {"error", each.reason}});
-  }
-  return list;
-}
-
-Json by_category(const std::vector<std::string>& categories, const std::vector<std::uint32_t>& counts) {
-  Json json = Json::object();
-  for (std::size_t c = 0; c < categories.size(); ++c) {
-    json[categories[c]] = counts[c];
-  }
-  return json;
-}
 
 Json model_facts(const std::string& file, const Model& model) {
   return {{"file", file},
@@ -76,24 +46,6 @@ std::string classification_json(const std::string& file, const Classification& c
 
 std::string error_json(const std::string& file, const std::string& error) {
   return line({{"file", file}, {"error", error}});
-}
-
-std::string evaluation_json(const Evaluation& e, const Settings& settings) {
-  const std::size_t objects = std::accumulate(e.object_counts.begin(), e.object_counts.end(), std::size_t{0});
-  return line({{"dataset", e.dataset},
-               {"objects", objects},
-               {"categories", e.categories},
-               {"splits", e.splits},
-               {"mean_class_rate", e.mean_class_rate.mean},
-               {"mean_class_rate_std", e.mean_class_rate.deviation},
-               {"overall_rate", e.overall_rate.mean},
-               {"overall_rate_std", e.overall_rate.deviation},
-               {"confusion", e.confusion},
-               {"seconds", e.wall_seconds},
-               {"object_counts", by_category(e.categories, e.object_counts)},
-               {"stage_seconds", stage_seconds(e.seconds)},
-               {"settings", settings_to_json(settings)},
-               {"skipped", skipped_objects(e.skipped)}});
 }
 
 std::string model_json(const std::string& file, const Model& model) {

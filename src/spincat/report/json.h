@@ -23,9 +23,10 @@ std::string classification_json(const std::string& file, const Classification& c
 // {"file", "error"}
 std::string error_json(const std::string& file, const std::string& error);
 
-// {"dataset", "objects", "categories", "splits", "mean_class_rate", "mean_class_rate_std", "overall_rate",
-//  "overall_rate_std", "confusion", "seconds", "object_counts": {category: n}, "stage_seconds", "settings", "skipped"}
-std::string evaluation_json(const Evaluation& evaluation, const Settings& settings);
+// The rates with their intervals, the confusion matrix, and all that is needed to repeat the run; `command` is the
+// command line, word by word. Keys: docs/json.md.
+std::string evaluation_json(const Evaluation& evaluation, const Settings& settings, const EvaluateOptions& options,
+                            const std::vector<std::string>& command);
 
 // {"file", "kind": "model", "made_by", "dataset", "categories", "object_counts": {category: n}, "features", "judges",
 //  "settings"}

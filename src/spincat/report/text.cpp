@@ -4,101 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "spincat/pipeline/setting_names.h"
 #include "spincat/report/text_table.h"
 
 namespace spincat {
-namespace {
-
-std::string per_cent(double share) {
-  return fmt::format("{:.0f}", 100.0 * share);
-}
-
-double row_total(const std::vector<std::uint32_t>& row) {
-  return std::accumulate(row.begin(), row.end(), 0.0);
-}
-
-std::string diagonal_share(const Evaluation& e, std::size_t c) {
-  const double total = row_total(e.confusion[c]);
-  return total > 0.0 ? per_cent(e.confusion[c][c] / total) + " %" : "-";
-}
-
-// Rows are the truth, columns what objects were named; shares of each row in per cent, zeros as dots.
-std::string confusion_matrix(const Evaluation& e) {
-  const std::size_t n = e.categories.size();
-  std::vector<Align> columns = {Align::left, Align::right};
-  columns.insert(columns.end(), n, Align::right);
-  TextTable table(columns);
-  std::vector<std::string> head = {"truth \\ named as, %", "objects"};
-  for (const std::string& category : e.categories) {
-    head.push_back(printable(category));
-  }
-  table.add(std::move(head));
-  for (std::size_t truth = 0; truth < n; ++truth) {
-    const double total = row_total(e.confusion[truth]);
-    std::vector<std::string> row = {printable(e.categories[truth]), fmt::format("{}", e.object_counts[truth])};
-    for (const std::uint32_t count : e.confusion[truth]) {
-      row.push_back(count == 0 ? "." : per_cent(count / total));
-    }
-    table.add(std::move(row));
-  }
-  return table.str();
-}
-
-std::string category_rates(const Evaluation& e) {
-  TextTable table({Align::left, Align::right, Align::right});
-  table.add({"category", "objects", "right"});
-  for (std::size_t c = 0; c < e.categories.size(); ++c) {
-    table.add({printable(e.categories[c]), fmt::format("{}", e.object_counts[c]), diagonal_share(e, c)});
-  }
-  return table.str();
-}
-
-std::string most_confused(const Evaluation& e, std::size_t most) {
-  struct Confused {
-    std::size_t truth;
-    std::size_t named;
-    double share;
-  };
-  std::vector<Confused> pairs;
-  for (std::size_t i = 0; i < e.categories.size(); ++i) {
-    for (std::size_t j = 0; j < e.categories.size(); ++j) {
-      if (i != j && e.confusion[i][j] > 0) {
-        pairs.push_back({i, j, e.confusion[i][j] / row_total(e.confusion[i])});
-      }
-    }
-  }
-  if (pairs.empty()) {
-    return {};
-  }
-  std::ranges::stable_sort(pairs, std::ranges::greater{}, &Confused::share);
-  pairs.resize(std::min(most, pairs.size()));
-  TextTable table({Align::left, Align::left, Align::right});
-  table.add({"most often confused", "named as", "of its objects"});
-  for (const Confused& pair : pairs) {
-    table.add({printable(e.categories[pair.truth]), printable(e.categories[pair.named]), per_cent(pair.share) + " %"});
-  }
-  return table.str();
-}
-
-std::size_t widest_line(const std::string& text) {
-  std::size_t widest = 0;
-  std::size_t begin = 0;
-  while (begin < text.size()) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    widest = std::max(widest, text_width(std::string_view(text).substr(begin, end - begin)));
-    begin = end + 1;
-  }
-  return widest;
-}
-
-std::string rate_text(const Rate& rate) {
-  return fmt::format("{:.3f} ± {:.3f}", rate.mean, rate.deviation);
-}
-
-}  // namespace
 
 std::string human_seconds(double seconds) {
   if (seconds < 0.9995) {
@@ -110,20 +20,6 @@ std::string human_seconds(double seconds) {
   const auto whole = static_cast<long>(std::lround(seconds));
   return whole < 3600 ? fmt::format("{} min {} s", whole / 60, whole % 60)
                       : fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
-}
-
-std::string evaluation_text(const Evaluation& e, std::size_t width) {
-  std::string matrix = confusion_matrix(e);
-  if (widest_line(matrix) > width) {
-    matrix = category_rates(e) + "\n" + most_confused(e, 10);
-  }
-  const std::size_t objects = std::accumulate(e.object_counts.begin(), e.object_counts.end(), std::size_t{0});
-  return fmt::format(
-      "{}\n"
-      "mean-class rate  {}   (mean and standard deviation over {} splits)\n"
-      "overall rate     {}   ({} objects, {} categories, {})\n",
-      matrix, rate_text(e.mean_class_rate), e.splits, rate_text(e.overall_rate), objects, e.categories.size(),
-      human_seconds(e.wall_seconds));
 }
 
 std::string ballot_text(const Ballot& ballot, const std::vector<std::string>& categories) {

@@ -1,0 +1,20 @@
+// Objects whose category is of no interest.
+#pragma once
+
+#include <filesystem>
+#include <system_error>
+#include <vector>
+
+namespace spincat {
+
+// All object files in a folder and the folders below it, sorted. When a folder cannot be read, `error` says why and
+// what was found so far is returned.
+std::vector<std::filesystem::path> object_files_below(const std::filesystem::path& folder, std::error_code& error);
+
+// The objects that a source names: all object files below a folder, or the column `path` of a CSV file, whose paths are
+// relative to `models` (empty: to the CSV file's own folder). Sorted, each once; the files of a CSV need not be there.
+// Throws InputError when the source is missing, cannot be read or names no object.
+std::vector<std::filesystem::path> read_objects(const std::filesystem::path& source,
+                                                const std::filesystem::path& models = {});
+
+}  // namespace spincat

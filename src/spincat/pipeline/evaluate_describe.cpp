@@ -1,0 +1,94 @@
+// The first half of an evaluation: all objects to their features.
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "spincat/dataset/splits.h"
+#include "spincat/error.h"
+#include "spincat/pipeline/evaluate.h"
+#include "spincat/pipeline/stopwatch.h"
+
+namespace spincat {
+namespace {
+
+void check_all_described(const TestTable& tested) {
+  for (std::size_t i = 0; i < tested.objects.size(); ++i) {
+    if (!tested.problems[i].empty()) {
+      throw InputError(tested.objects[i].file.string(), tested.problems[i]);
+    }
+  }
+}
+
+TestTable described(std::span<const DatasetObject> objects, const EvaluationData& data, const Settings& settings,
+                    const TestOptions& test, const EvaluateOptions& options, const Progress& progress) {
+  TestTable tested = describe_tested(objects, static_cast<std::size_t>(data.table.features.cols()), settings, test,
+                                     options.threads, progress);
+  if (options.strict) {
+    check_all_described(tested);
+  }
+  return tested;
+}
+
+// What both kinds have in common: the objects to learn from, and the strangers.
+EvaluationData describe_known(const Dataset& dataset, const Settings& settings, const EvaluateOptions& options,
+                              const Progress& progress) {
+  EvaluationData data;
+  data.dataset = dataset.name;
+  data.table = describe_dataset(dataset, settings, options.strict, options.threads, progress);
+  std::vector<DatasetObject> strangers;
+  for (const std::filesystem::path& file : options.strangers) {
+    strangers.push_back({file, 0, ""});
+  }
+  // As they are: whether a stranger is turned or sampled, it stays a stranger.
+  data.strangers = described(strangers, data, settings, {}, options, progress);
+  return data;
+}
+
+}  // namespace
+
+void EvaluateOptions::validate() const {
+  check_splits(splits, test_share);
+  if (fewest_objects < 1 || fewest_objects > 1'000'000) {
+    throw InputError(fmt::format("fewest objects {} is out of range (1 to 1000000)", fewest_objects));
+  }
+  test.validate();
+}
+
+EvaluationData describe_for_evaluation(const Dataset& dataset, const Settings& settings, const EvaluateOptions& options,
+                                       const Progress& progress) {
+  options.validate();
+  Stopwatch watch;
+  std::vector<LeftOutCategory> left_out;
+  const Dataset part = with_enough_objects(dataset, options.fewest_objects, left_out);
+  EvaluationData data = describe_known(part, settings, options, progress);
+  data.left_out = std::move(left_out);
+  if (options.test.form != TestForm::as_is) {
+    data.tested = described(data.table.objects, data, settings, options.test, options, progress);
+  }
+  data.wall_seconds = watch.lap();
+  return data;
+}
+
+EvaluationData describe_across(const Dataset& train, const Dataset& test, const Settings& settings,
+                               const EvaluateOptions& options, const Progress& progress) {
+  options.validate();
+  Stopwatch watch;
+  std::vector<LeftOutCategory> left_out;
+  const auto [learned, tested] =
+      common_categories(with_enough_objects(train, options.fewest_objects, left_out), test, left_out);
+  if (options.strict && !tested.skipped.empty()) {
+    throw InputError(tested.skipped.front().file.string(), tested.skipped.front().reason);
+  }
+  EvaluationData data = describe_known(learned, settings, options, progress);
+  data.test_dataset = tested.name;
+  data.across = true;
+  data.left_out = std::move(left_out);
+  data.tested = described(tested.objects, data, settings, options.test, options, progress);
+  if (learned.name != tested.name) {  // else they are the same
+    data.table.skipped.insert(data.table.skipped.end(), tested.skipped.begin(), tested.skipped.end());
+  }
+  data.wall_seconds = watch.lap();
+  return data;
+}
+
+}  // namespace spincat

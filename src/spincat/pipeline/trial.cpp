@@ -1,0 +1,34 @@
+#include "spincat/pipeline/trial.h"
+
+#include "spincat/pipeline/teach.h"
+
+namespace spincat {
+
+Trial run_trial(const EvaluationData& data, const Eigen::MatrixXf& gram, const Split& split, const Settings& settings,
+                bool measure_confidence, int threads) {
+  const FeatureTable& table = data.table;
+  const std::size_t n = table.categories.size();
+  const JudgeList judges = teach_judges(table, gram, split.train, settings.judge, threads, Progress{});
+  Calibration calibration;
+  if (measure_confidence) {
+    calibration = calibrate(table, gram, split.train, settings.judge, settings.seed, threads, Progress{});
+  }
+  Trial trial;
+  trial.confusion.assign(n, std::vector<std::uint32_t>(n, 0));
+  for (const std::uint32_t object : split.test) {
+    const Ballot ballot = judges.vote(data.tested ? data.tested->features_of(object) : table.features_of(object));
+    const std::uint32_t truth = data.tested ? data.tested->objects[object].category : table.objects[object].category;
+    ++trial.confusion[truth][ballot.winner];
+    if (measure_confidence) {
+      (ballot.winner == truth ? trial.right : trial.wrong).push_back(calibration.confidence(ballot));
+    }
+  }
+  for (std::uint32_t object = 0; measure_confidence && object < data.strangers.objects.size(); ++object) {
+    if (data.strangers.problems[object].empty()) {
+      trial.strangers.push_back(calibration.confidence(judges.vote(data.strangers.features_of(object))));
+    }
+  }
+  return trial;
+}
+
+}  // namespace spincat

@@ -1,0 +1,25 @@
+// Private to the library, not installed: one trial of an evaluation.
+#pragma once
+
+#include <vector>
+
+#include "spincat/dataset/splits.h"
+#include "spincat/pipeline/evaluate.h"
+
+namespace spincat {
+
+// What came of one trial.
+struct Trial {
+  Confusion confusion;
+  // The confidences, where they are measured: in the tested objects by whether they were named right, and in strangers.
+  std::vector<double> right;
+  std::vector<double> wrong;
+  std::vector<double> strangers;
+};
+
+// Teaches the judges on the objects `split.train` of the table and lets them vote on the tested objects `split.test`.
+// Deterministic.
+Trial run_trial(const EvaluationData& data, const Eigen::MatrixXf& gram, const Split& split, const Settings& settings,
+                bool measure_confidence, int threads);
+
+}  // namespace spincat

@@ -1,0 +1,162 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+
+#include "spincat/report/text.h"
+#include "spincat/report/text_table.h"
+
+namespace spincat {
+namespace {
+
+std::string per_cent(double share) {
+  return fmt::format("{:.0f}", 100.0 * share);
+}
+
+double row_total(const std::vector<std::uint32_t>& row) {
+  return std::accumulate(row.begin(), row.end(), 0.0);
+}
+
+std::string diagonal_share(const Evaluation& e, std::size_t c) {
+  const double total = row_total(e.confusion[c]);
+  return total > 0.0 ? per_cent(e.confusion[c][c] / total) + " %" : "-";
+}
+
+// Rows are the truth, columns what objects were named; shares of each row in per cent, zeros as dots.
+std::string confusion_matrix(const Evaluation& e) {
+  const std::size_t n = e.categories.size();
+  std::vector<Align> columns = {Align::left, Align::right};
+  columns.insert(columns.end(), n, Align::right);
+  TextTable table(columns);
+  std::vector<std::string> head = {"truth \\ named as, %", "objects"};
+  for (const std::string& category : e.categories) {
+    head.push_back(printable(category));
+  }
+  table.add(std::move(head));
+  for (std::size_t truth = 0; truth < n; ++truth) {
+    const double total = row_total(e.confusion[truth]);
+    std::vector<std::string> row = {printable(e.categories[truth]), fmt::format("{}", e.object_counts[truth])};
+    for (const std::uint32_t count : e.confusion[truth]) {
+      row.push_back(count == 0 ? "." : per_cent(count / total));
+    }
+    table.add(std::move(row));
+  }
+  return table.str();
+}
+
+std::string category_rates(const Evaluation& e) {
+  TextTable table({Align::left, Align::right, Align::right});
+  table.add({"category", "objects", "right"});
+  for (std::size_t c = 0; c < e.categories.size(); ++c) {
+    table.add({printable(e.categories[c]), fmt::format("{}", e.object_counts[c]), diagonal_share(e, c)});
+  }
+  return table.str();
+}
+
+std::string most_confused(const Evaluation& e, std::size_t most) {
+  struct Confused {
+    std::size_t truth;
+    std::size_t named;
+    double share;
+  };
+  std::vector<Confused> pairs;
+  for (std::size_t i = 0; i < e.categories.size(); ++i) {
+    for (std::size_t j = 0; j < e.categories.size(); ++j) {
+      if (i != j && e.confusion[i][j] > 0) {
+        pairs.push_back({i, j, e.confusion[i][j] / row_total(e.confusion[i])});
+      }
+    }
+  }
+  if (pairs.empty()) {
+    return {};
+  }
+  std::ranges::stable_sort(pairs, std::ranges::greater{}, &Confused::share);
+  pairs.resize(std::min(most, pairs.size()));
+  TextTable table({Align::left, Align::left, Align::right});
+  table.add({"most often confused", "named as", "of its objects"});
+  for (const Confused& pair : pairs) {
+    table.add({printable(e.categories[pair.truth]), printable(e.categories[pair.named]), per_cent(pair.share) + " %"});
+  }
+  return table.str();
+}
+
+std::size_t widest_line(const std::string& text) {
+  std::size_t widest = 0;
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    widest = std::max(widest, text_width(std::string_view(text).substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return widest;
+}
+
+std::string rate_text(const Evaluation& e, const Rate& rate) {
+  const std::string spread = e.protocol == Protocol::splits ? fmt::format(" ± {:.3f}", rate.deviation) : "";
+  return fmt::format("{:.3f}{}   95 % interval {:.3f} to {:.3f}", rate.mean, spread, rate.interval.low,
+                     rate.interval.high);
+}
+
+std::string protocol_text(const Evaluation& e) {
+  switch (e.protocol) {
+    case Protocol::leave_one_out:
+      return "each object named by judges taught on all others";
+    case Protocol::across:
+      return fmt::format("tested on {} objects of {}",
+                         std::accumulate(e.test_object_counts.begin(), e.test_object_counts.end(), std::size_t{0}),
+                         printable(e.test_dataset));
+    case Protocol::splits:
+      break;
+  }
+  const std::size_t all = static_cast<std::size_t>(e.splits) * std::max<std::size_t>(1, e.split_seeds.size());
+  return fmt::format("mean and standard deviation over {} splits", all);
+}
+
+// The mean-class rate of each seed, where there are several.
+std::string seeds_text(const Evaluation& e) {
+  if (e.seeds.size() < 2) {
+    return {};
+  }
+  std::vector<std::string> rates;
+  for (const SeedRates& seed : e.seeds) {
+    rates.push_back(fmt::format("{:.3f}", seed.mean_class_rate.mean));
+  }
+  return fmt::format("seeds {}  {}   (mean-class rate over {} splits each)\n", fmt::join(e.split_seeds, ", "),
+                     fmt::join(rates, "  "), e.splits);
+}
+
+std::string confidence_text(const Evaluation& e) {
+  if (!e.confidence) {
+    return {};
+  }
+  std::string text =
+      fmt::format("confidence       {:.3f} on average; area under the curve {:.3f} for right or wrong",
+                  e.confidence->mean_confidence, e.confidence->right_or_wrong);
+  if (e.confidence->strangers > 0) {
+    text += fmt::format(", {:.3f} for known or unknown ({} unknown objects)", e.confidence->known_or_unknown,
+                        e.confidence->strangers);
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string evaluation_text(const Evaluation& e, std::size_t width) {
+  std::string matrix = confusion_matrix(e);
+  if (widest_line(matrix) > width) {
+    matrix = category_rates(e) + "\n" + most_confused(e, 10);
+  }
+  const std::size_t objects = std::accumulate(e.object_counts.begin(), e.object_counts.end(), std::size_t{0});
+  return fmt::format(
+      "{}\n"
+      "mean-class rate  {}\n"
+      "overall rate     {}\n"
+      "{}{}"
+      "{} objects, {} categories, {}, {}\n",
+      matrix, rate_text(e, e.mean_class_rate), rate_text(e, e.overall_rate), seeds_text(e), confidence_text(e), objects,
+      e.categories.size(), protocol_text(e), human_seconds(e.wall_seconds));
+}
+
+}  // namespace spincat

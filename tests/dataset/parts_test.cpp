@@ -56,10 +56,8 @@ TEST(TestingPart, RefusesADataSetWithoutASplit) {
     none.objects[i].split = "";
     all.objects[i].split = "test";
   }
-  EXPECT_EQ(input_error([&] { testing_part(none); }),
-            "data: has no split of its own: no object is marked 'test'");
-  EXPECT_EQ(input_error([&] { testing_part(all); }),
-            "data: has no split of its own: every object is marked 'test'");
+  EXPECT_EQ(input_error([&] { testing_part(none); }), "data: has no split of its own: no object is marked 'test'");
+  EXPECT_EQ(input_error([&] { testing_part(all); }), "data: has no split of its own: every object is marked 'test'");
 }
 
 TEST(CommonCategories, AreMatchedByNameInOneOrder) {

@@ -145,8 +145,9 @@ TEST_F(Protocols, AcrossDoesNotDependOnThreadsAndSkipsWhatCannotBeRead) {
   ASSERT_EQ(one.skipped.size(), 1U);
   EXPECT_EQ(one.skipped[0].file, broken);
   options.strict = true;
-  EXPECT_EQ(input_error([&] { evaluate_across(shapes(), others, tiny_settings(), options); })
-                .rfind(broken.string() + ": ", 0),
+  EXPECT_EQ(input_error([&] {
+              evaluate_across(shapes(), others, tiny_settings(), options);
+            }).rfind(broken.string() + ": ", 0),
             0U);
 }
 

@@ -51,8 +51,9 @@ TEST(EvaluationJson, HasThePromisedKeys) {
   EXPECT_EQ(json["overall_rate_interval"].dump(), "[0.125,0.5]");
   EXPECT_EQ(json["category_rates"].dump(),
             R"({"bed":{"rate":0.5,"interval":[0.0,1.0]},"chair":{"rate":0.75,"interval":[0.5,1.0]}})");
-  EXPECT_EQ(json["seeds"].dump(),
-            R"([{"seed":7,"mean_class_rate":0.5,"mean_class_rate_std":0.1,"overall_rate":0.25,"overall_rate_std":0.2}])");
+  EXPECT_EQ(
+      json["seeds"].dump(),
+      R"([{"seed":7,"mean_class_rate":0.5,"mean_class_rate_std":0.1,"overall_rate":0.25,"overall_rate_std":0.2}])");
   EXPECT_EQ(json["confusion"].dump(), "[[1,2],[3,4]]");
   EXPECT_EQ(json["seconds"], 6.0);
   EXPECT_EQ(json["object_counts"].dump(), R"({"bed":2,"chair":3})");

@@ -44,7 +44,8 @@ struct DatasetOptions {
 //    are no categories. Files that are no object files (textures, notes), and names that start with a dot, are passed
 //    over. Symbolic links are followed, each folder once a category.
 //  - a folder with classification/*.cla and db/ inside: the Princeton Shape Benchmark, all its .cla files merged
-//  - a CSV file with a header line that names at least the columns path and category, and maybe split (train, test, val, validation or nothing); lines that start
+//  - a CSV file with a header line that names at least the columns path and category, and maybe split (train, test,
+//  val, validation or nothing); lines that start
 //    with # are comments; other columns are ignored; quoting by RFC 4180
 //  - a classification file of the Princeton Shape Benchmark (.cla); the classes that list models themselves are the
 //    categories; the split is the file's own name without its extension, when that is train or test. Model N is

@@ -110,11 +110,11 @@ std::pair<Dataset, Dataset> common_categories(const Dataset& train, const Datase
                                               std::vector<LeftOutCategory>& left_out) {
   std::pair<Dataset, Dataset> both = {shared_part(train, test, left_out), shared_part(test, train, left_out)};
   if (both.first.categories.size() < 2) {
-    throw InputError(test.name, fmt::format("shares {} with {}: two or more categories are needed",
-                                            both.first.categories.empty()
-                                                ? "no category"
-                                                : "only category " + in_quotes(both.first.categories[0]),
-                                            train.name));
+    throw InputError(test.name,
+                     fmt::format("shares {} with {}: two or more categories are needed",
+                                 both.first.categories.empty() ? "no category"
+                                                               : "only category " + in_quotes(both.first.categories[0]),
+                                 train.name));
   }
   check_disjoint(both.first, both.second);
   return both;

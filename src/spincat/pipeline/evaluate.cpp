@@ -183,9 +183,7 @@ Evaluation facts_of(const EvaluationData& data, const EvaluateOptions& options) 
   Evaluation result;
   result.dataset = data.dataset;
   result.test_dataset = data.test_dataset;
-  result.protocol = data.across             ? Protocol::across
-                    : options.leave_one_out ? Protocol::leave_one_out
-                                            : Protocol::splits;
+  result.protocol = data.across ? Protocol::across : options.leave_one_out ? Protocol::leave_one_out : Protocol::splits;
   result.categories = data.table.categories;
   result.object_counts = data.table.object_counts();
   result.list_checksum = list_checksum(data.table.objects, data.table.categories);

@@ -27,14 +27,14 @@ enum class Protocol {
 
 struct EvaluateOptions {
   bool leave_one_out = false;
-  int splits = 20;           // for each seed, 1 to 10,000
-  double test_share = 0.2;   // of each category's objects, more than 0 and less than 1
+  int splits = 20;                         // for each seed, 1 to 10,000
+  double test_share = 0.2;                 // of each category's objects, more than 0 and less than 1
   std::vector<std::uint64_t> split_seeds;  // of the splits; none means Settings::seed. Everything else that is random
                                            // (points, copies) follows Settings::seed alone, so that objects are
                                            // described once for all splits of all seeds
-  int fewest_objects = 1;  // categories with fewer objects to learn from are left out, 1 to 1,000,000
-  TestOptions test;        // how the tested objects are shown
-  bool measure_confidence = false;               // calibrates in each split, too: six times the teaching
+  int fewest_objects = 1;                  // categories with fewer objects to learn from are left out, 1 to 1,000,000
+  TestOptions test;                        // how the tested objects are shown
+  bool measure_confidence = false;         // calibrates in each split, too: six times the teaching
   std::vector<std::filesystem::path> strangers;  // files of objects of none of the categories; asks for the above
   bool strict = false;  // an object that cannot be read ends the evaluation instead of being left out
   int threads = 1;      // 1 or more; never changes the result
@@ -87,9 +87,9 @@ struct Evaluation {
 struct EvaluationData {
   std::string dataset;
   std::string test_dataset;
-  FeatureTable table;                // to learn from, and to test unless there is `tested`
-  std::optional<TestTable> tested;   // the objects of another data set, or those of `table` in another form
-  bool across = false;               // `tested` is another data set
+  FeatureTable table;               // to learn from, and to test unless there is `tested`
+  std::optional<TestTable> tested;  // the objects of another data set, or those of `table` in another form
+  bool across = false;              // `tested` is another data set
   TestTable strangers;
   std::vector<LeftOutCategory> left_out;
   double wall_seconds = 0.0;

@@ -24,8 +24,8 @@ enum class TestForm {
 
 struct TestOptions {
   TestForm form = TestForm::as_is;
-  double noise = 0.01;      // of clouds: standard deviation along each axis, in diameters of the object, 0 to 1; the diameter is
-                            // twice the distance of the furthest point from the centre of the bounding box
+  double noise = 0.01;  // of clouds: standard deviation along each axis, in diameters of the object, 0 to 1; the
+                        // diameter is twice the distance of the furthest point from the centre of the bounding box
   int cloud_points = 2048;  // of clouds, 1 to 10,000,000
 
   // Throws InputError naming the option, its value and the allowed range.

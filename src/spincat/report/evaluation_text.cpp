@@ -131,9 +131,8 @@ std::string confidence_text(const Evaluation& e) {
   if (!e.confidence) {
     return {};
   }
-  std::string text =
-      fmt::format("confidence       {:.3f} on average; area under the curve {:.3f} for right or wrong",
-                  e.confidence->mean_confidence, e.confidence->right_or_wrong);
+  std::string text = fmt::format("confidence       {:.3f} on average; area under the curve {:.3f} for right or wrong",
+                                 e.confidence->mean_confidence, e.confidence->right_or_wrong);
   if (e.confidence->strangers > 0) {
     text += fmt::format(", {:.3f} for known or unknown ({} unknown objects)", e.confidence->known_or_unknown,
                         e.confidence->strangers);

@@ -14,8 +14,9 @@ namespace spincat {
 // "1.3 ms", "12.4 s", "3 min 20 s".
 std::string human_seconds(double seconds);
 
-// The rates with their spread and intervals, the objects of each category, and the confusion matrix in per cent of each row; where
-// the matrix would be wider than `width` columns, the rate of each category and the most confused pairs instead.
+// The rates with their spread and intervals, the objects of each category, and the confusion matrix in per cent of each
+// row; where the matrix would be wider than `width` columns, the rate of each category and the most confused pairs
+// instead.
 std::string evaluation_text(const Evaluation& evaluation, std::size_t width);
 
 // Every judge's word on one object: "chair  not couch  0.84", those for the winner first, then by strength; and, where

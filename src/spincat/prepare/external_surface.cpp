@@ -12,6 +12,7 @@
 #include <numbers>
 #include <vector>
 
+#include "spincat/geometry/rasterise.h"
 #include "spincat/prepare/normals.h"
 
 namespace spincat {
@@ -88,71 +89,6 @@ class Camera {
   Eigen::Matrix3d axes_;
 };
 
-// A run of pixels in a row; empty when last < first.
-struct Columns {
-  int first;
-  int last;
-};
-
-// The weights of a projected triangle's corners at the pixel centres of one row: all at least zero inside and on its
-// edge. They are linear, and so is one over the depth. Counted from the first column that is asked for.
-class RowWeights {
- public:
-  RowWeights(double b, double c, double step_b, double step_c) : b_(b), c_(c), step_b_(step_b), step_c_(step_c) {}
-
-  // The columns among the first `count` that are not outside.
-  Columns inside(int count) const {
-    constexpr int kFew = 6;  // that are tested faster than the crossings are computed
-    Columns columns{0, count - 1};
-    if (count > kFew) {
-      narrow(columns);
-    }
-    while (columns.first <= columns.last && !is_inside(columns.first)) {
-      ++columns.first;
-    }
-    while (columns.first < columns.last && !is_inside(columns.last)) {
-      --columns.last;
-    }
-    return columns;
-  }
-
-  double b(int column) const { return b_ + column * step_b_; }
-  double c(int column) const { return c_ + column * step_c_; }
-
- private:
-  bool is_inside(int column) const {
-    const double wb = b(column);
-    const double wc = c(column);
-    return wb >= 0.0 && wc >= 0.0 && wb + wc <= 1.0;
-  }
-
-  // Leaves out columns that are more than a pixel outside, so that rounding decides about none: a long thin triangle
-  // costs its length, not its bounding box.
-  void narrow(Columns& columns) const {
-    cut(b_, step_b_, columns);
-    cut(c_, step_c_, columns);
-    cut(1.0 - b_ - c_, -step_b_ - step_c_, columns);
-  }
-
-  // The same for one weight that is `weight` at column 0 and changes by `step` a column.
-  static void cut(double weight, double step, Columns& columns) {
-    if (step == 0.0) {
-      return;
-    }
-    const int at = static_cast<int>(std::clamp(-weight / step, -2.0, 2.0 * kPixels));
-    if (step > 0.0) {
-      columns.first = std::max(columns.first, at - 2);
-    } else {
-      columns.last = std::min(columns.last, at + 2);
-    }
-  }
-
-  double b_;  // the weights of the second and third corner at column 0
-  double c_;
-  double step_b_;  // from one column to the next
-  double step_c_;
-};
-
 // What a camera sees: at each pixel the nearest face and one over its depth.
 class DepthBuffer {
  public:
@@ -163,58 +99,19 @@ class DepthBuffer {
     face_.fill(kNoFace);
   }
 
-  // Draws both sides of a triangle given by its projected corners: every pixel whose centre lies inside or on its edge.
   void draw(std::uint32_t face, const Vec3& a, const Vec3& b, const Vec3& c) {
-    const int first_column = first_pixel(std::min({a.x(), b.x(), c.x()}));
-    const int last_column = last_pixel(std::max({a.x(), b.x(), c.x()}));
-    const int first_row = first_pixel(std::min({a.y(), b.y(), c.y()}));
-    const int last_row = last_pixel(std::max({a.y(), b.y(), c.y()}));
-    if (first_column > last_column || first_row > last_row) {
-      return;
-    }
-    const double twice_area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-    if (twice_area == 0.0) {
-      return;
-    }
-    const Vec3 ab = b - a;
-    const Vec3 ac = c - a;
-    const double scale = 1.0 / twice_area;  // its sign makes the weights of either winding positive inside
-    const double step_b = ac.y() * scale;
-    const double step_c = -ab.y() * scale;
-    const double x = first_column + 0.5 - a.x();
-    const double depth_step = step_b * ab.z() + step_c * ac.z();
-    for (int row = first_row; row <= last_row; ++row) {
-      const double y = row + 0.5 - a.y();
-      const RowWeights weights((x * ac.y() - y * ac.x()) * scale, (ab.x() * y - ab.y() * x) * scale, step_b, step_c);
-      const Columns inside = weights.inside(last_column - first_column + 1);
-      const double nearest = a.z() + weights.b(inside.first) * ab.z() + weights.c(inside.first) * ac.z();
-      const int pixel = row * kPixels + first_column;
-      for (int column = inside.first; column <= inside.last; ++column) {
-        keep_nearest(face, pixel + column, nearest + (column - inside.first) * depth_step);
+    draw_triangle(kPixels, kPixels, a, b, c, [&](std::size_t pixel, double inverse_depth) {
+      if (inverse_depth > inverse_depth_[pixel]) {
+        inverse_depth_[pixel] = inverse_depth;
+        face_[pixel] = face;
       }
-    }
+    });
   }
 
   std::uint32_t face(int pixel) const { return face_[pixel]; }
   double inverse_depth(int pixel) const { return inverse_depth_[pixel]; }
 
  private:
-  // The range of pixels whose centres lie between two image coordinates, cut to the image. (std::ceil and std::floor are
-  // function calls on the processors that this is compiled for.)
-  static int first_pixel(double low) {
-    const double at = std::clamp(low - 0.5, 0.0, double{kPixels});
-    const int below = static_cast<int>(at);
-    return below < at ? below + 1 : below;
-  }
-  static int last_pixel(double high) { return static_cast<int>(std::clamp(high + 0.5, 0.0, double{kPixels})) - 1; }
-
-  void keep_nearest(std::uint32_t face, int pixel, double inverse_depth) {
-    if (inverse_depth > inverse_depth_[pixel]) {
-      inverse_depth_[pixel] = inverse_depth;
-      face_[pixel] = face;
-    }
-  }
-
   std::array<double, kPixels * kPixels> inverse_depth_;
   std::array<std::uint32_t, kPixels * kPixels> face_;
 };

@@ -12,6 +12,7 @@ using Command = std::function<int()>;
 Command add_train(CLI::App& parent);
 Command add_classify(CLI::App& parent);
 Command add_evaluate(CLI::App& parent);
+Command add_sweep(CLI::App& parent);
 Command add_spin(CLI::App& parent);
 Command add_info(CLI::App& parent);
 

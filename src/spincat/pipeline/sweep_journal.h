@@ -1,0 +1,38 @@
+// Private to the library, not installed: what an interrupted sweep has found so far.
+//
+// Lines of JSON. The first says which sweep it is; every other one is a point. A line counts when it is whole: the last
+// one, cut off by a power failure, is written over.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "spincat/pipeline/sweep.h"
+
+namespace spincat {
+
+class SweepJournal {
+ public:
+  // Reads the journal, or begins one where there is none. No file: nothing is kept. Throws InputError when the file is
+  // the journal of another sweep than `identity` or none at all, RunError when it cannot be written.
+  SweepJournal(std::filesystem::path file, const nlohmann::ordered_json& identity);
+
+  // The point with these values, where it is known.
+  const SweepPoint* find(const std::vector<std::string>& values) const;
+
+  // Adds a line, and waits until it is on the disk.
+  void add(const SweepPoint& point);
+
+ private:
+  void read(const std::string& text, const nlohmann::ordered_json& identity);
+  void append(const std::string& line);
+
+  std::filesystem::path file_;
+  std::size_t whole_ = 0;  // bytes of whole lines
+  std::map<std::vector<std::string>, SweepPoint> points_;
+};
+
+}  // namespace spincat

@@ -1,0 +1,120 @@
+#include "spincat/report/sweep_report.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "spincat/pipeline/settings_json.h"
+#include "spincat/report/json_parts.h"
+#include "spincat/report/text.h"
+#include "spincat/report/text_table.h"
+
+namespace spincat {
+namespace {
+
+// One field of a CSV file by RFC 4180.
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) {
+    return text;
+  }
+  std::string quoted = "\"";
+  for (const char c : text) {
+    quoted += c == '"' ? "\"\"" : std::string(1, c);
+  }
+  return quoted + "\"";
+}
+
+std::string rate_fields(const Rate& rate) {
+  return fmt::format("{},{},{},{}", rate.mean, rate.deviation, rate.interval.low, rate.interval.high);
+}
+
+Json point_json(const Sweep& sweep, const SweepPoint& point) {
+  Json json = Json::object();
+  for (std::size_t v = 0; v < sweep.variations.size(); ++v) {
+    json[sweep.variations[v].setting] = point.values[v];
+  }
+  return {{"values", json},
+          {"mean_class_rate", point.mean_class_rate.mean},
+          {"mean_class_rate_std", point.mean_class_rate.deviation},
+          {"mean_class_rate_interval", {point.mean_class_rate.interval.low, point.mean_class_rate.interval.high}},
+          {"overall_rate", point.overall_rate.mean},
+          {"overall_rate_std", point.overall_rate.deviation},
+          {"overall_rate_interval", {point.overall_rate.interval.low, point.overall_rate.interval.high}},
+          {"stage_seconds", stage_seconds(point.seconds)}};
+}
+
+}  // namespace
+
+std::string sweep_text(const Sweep& sweep) {
+  std::vector<Align> columns(sweep.variations.size() + 7, Align::right);
+  TextTable table(columns);
+  std::vector<std::string> head;
+  for (const Variation& variation : sweep.variations) {
+    head.push_back(printable(variation.setting));
+  }
+  head.insert(head.end(), {"mean-class rate", "overall rate", "read", "prepare", "spin", "encode", "judge"});
+  table.add(std::move(head));
+  for (const SweepPoint& point : sweep.points) {
+    std::vector<std::string> row;
+    for (const std::string& value : point.values) {
+      row.push_back(printable(value));
+    }
+    row.push_back(fmt::format("{:.3f} ± {:.3f}", point.mean_class_rate.mean, point.mean_class_rate.deviation));
+    row.push_back(fmt::format("{:.3f} ± {:.3f}", point.overall_rate.mean, point.overall_rate.deviation));
+    const StageSeconds& s = point.seconds;
+    for (const double seconds : {s.read, s.prepare, s.spin, s.encode, s.judge}) {
+      row.push_back(human_seconds(seconds));
+    }
+    table.add(std::move(row));
+  }
+  return table.str();
+}
+
+std::string sweep_json(const Sweep& sweep, const Settings& settings, const EvaluateOptions& options,
+                       const std::vector<std::string>& command) {
+  Json vary = Json::object();
+  for (const Variation& variation : sweep.variations) {
+    vary[variation.setting] = variation.values;
+  }
+  Json points = Json::array();
+  for (const SweepPoint& point : sweep.points) {
+    points.push_back(point_json(sweep, point));
+  }
+  const std::vector<std::uint64_t> seeds =
+      options.split_seeds.empty() ? std::vector{settings.seed} : options.split_seeds;
+  return line({{"dataset", sweep.dataset},
+               {"objects", sweep.objects},
+               {"vary", vary},
+               {"points", points},
+               {"run",
+                {{"command", command},
+                 {"version", "spincat " SPINCAT_VERSION},
+                 {"protocol", options.leave_one_out ? "leave-one-out" : "splits"},
+                 {"splits", options.splits},
+                 {"test_share", options.test_share},
+                 {"split_seeds", seeds},
+                 {"list_checksum", sweep.list_checksum}}},
+               {"settings", settings_to_json(settings)}});
+}
+
+std::string sweep_csv(const Sweep& sweep) {
+  std::string csv;
+  for (const Variation& variation : sweep.variations) {
+    csv += csv_field(variation.setting) + ",";
+  }
+  for (const char* rate : {"mean_class_rate", "overall_rate"}) {
+    csv += fmt::format("{0},{0}_std,{0}_low,{0}_high,", rate);
+  }
+  csv += "read_seconds,prepare_seconds,spin_seconds,encode_seconds,judge_seconds\n";
+  for (const SweepPoint& point : sweep.points) {
+    for (const std::string& value : point.values) {
+      csv += csv_field(value) + ",";
+    }
+    const StageSeconds& s = point.seconds;
+    csv += fmt::format("{},{},{},{},{},{},{}\n", rate_fields(point.mean_class_rate), rate_fields(point.overall_rate),
+                       s.read, s.prepare, s.spin, s.encode, s.judge);
+  }
+  return csv;
+}
+
+}  // namespace spincat

@@ -1,0 +1,22 @@
+// A sweep as a table for people, and as JSON and CSV for programs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "spincat/pipeline/sweep.h"
+
+namespace spincat {
+
+// A line for each point: the values, the rates with their spread, the time by stage.
+std::string sweep_text(const Sweep& sweep);
+
+// One object in one line; keys: docs/json.md.
+std::string sweep_json(const Sweep& sweep, const Settings& settings, const EvaluateOptions& options,
+                       const std::vector<std::string>& command);
+
+// A header line, then a line for each point: the varied settings by name, mean_class_rate, mean_class_rate_std,
+// mean_class_rate_low, mean_class_rate_high, the same for overall_rate, and seconds by stage.
+std::string sweep_csv(const Sweep& sweep);
+
+}  // namespace spincat

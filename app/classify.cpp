@@ -29,7 +29,10 @@ struct ClassifyArguments {
   fs::path model;
   std::vector<fs::path> inputs;
   bool votes = false;
+  double reject = 0.0;  // names of less confidence are not given
   RunOptions run;
+
+  bool rejects(const Classification& c) const { return c.confidence < reject; }
 };
 
 // A file to be named, or what is wrong with a folder that should have held some.
@@ -98,6 +101,9 @@ class AnswerPrinter {
     for (const Input& input : files) {
       file_width_ = std::max(file_width_, std::min(kWidestFile, text_width(printable(input.file.string()))));
     }
+    if (arguments.reject > 0.0) {
+      category_width_ = text_width("unknown");
+    }
     for (const std::string& category : model.categories) {
       category_width_ = std::max(category_width_, text_width(printable(category)));
     }
@@ -107,7 +113,8 @@ class AnswerPrinter {
     if (!answer.classification) {
       print_error(file, answer.error);
     } else if (arguments_.run.json) {
-      fmt::print("{}\n", classification_json(file.string(), *answer.classification, model_, arguments_.votes));
+      fmt::print("{}\n", classification_json(file.string(), *answer.classification, model_, arguments_.votes,
+                                             arguments_.rejects(*answer.classification)));
     } else {
       print_text(file, *answer.classification);
     }
@@ -129,10 +136,13 @@ class AnswerPrinter {
       print_row("file", "category", "confidence", "votes", "runner-up", "time");
       head_printed_ = true;
     }
-    print_row(cut_in_the_middle(printable(file.string()), file_width_), name(c.ballot.winner),
-              fmt::format("{:.2f}", c.confidence),
+    print_row(cut_in_the_middle(printable(file.string()), file_width_),
+              arguments_.rejects(c) ? "unknown" : name(c.ballot.winner), fmt::format("{:.2f}", c.confidence),
               fmt::format("{}/{}", c.ballot.count[c.ballot.winner], model_.categories.size() - 1),
               name(c.ballot.runner_up), human_seconds(s.read + s.prepare + s.spin + s.encode + s.judge));
+    if (arguments_.rejects(c)) {
+      fmt::print("    not confident enough for {}\n", name(c.ballot.winner));
+    }
     if (arguments_.votes) {
       fmt::print("{}", ballot_text(c.ballot, model_.categories));
     }
@@ -201,11 +211,16 @@ Command add_classify(CLI::App& parent) {
   command->footer(
       "Example:\n"
       "  spincat classify furniture.spincat chair.obj scans/*.ply\n"
-      "  spincat classify furniture.spincat incoming/ --json > names.jsonl");
+      "  spincat classify furniture.spincat incoming/ --reject 0.5 --json > names.jsonl");
   command->add_option("model", arguments->model, "A model file written by spincat train")
       ->type_name("MODEL")
       ->required();
   command->add_option("files", arguments->inputs, "Objects, or folders of objects")->type_name("FILE")->required();
+  command
+      ->add_option("--reject", arguments->reject,
+                   "Answer 'unknown' where the confidence is below this: for objects of none of the categories")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("P");
   command->add_flag("--votes", arguments->votes, "Show what every judge said");
   arguments->run.add_to(*command);
   return [arguments] { return run_classify(*arguments); };

@@ -135,6 +135,37 @@ TEST_F(Command, ClassifyJsonHasThePromisedKeysALine) {
   EXPECT_EQ(failed.at("error"), "missing.off: no such file");
 }
 
+TEST_F(Command, ClassifyAnswersUnknownBelowTheConfidenceAskedFor) {
+  train();
+  const Result never = run("classify shapes.spincat new-cone.off --json --reject 1");
+  EXPECT_EQ(never.code, 0) << never.err;
+  const Json json = Json::parse(never.out);
+  EXPECT_EQ(json.at("category"), "unknown");
+  EXPECT_EQ(json.at("best_guess"), "cone");
+  EXPECT_LT(json.at("confidence").get<double>(), 1.0);
+  EXPECT_NE(run("classify shapes.spincat new-cone.off --reject 1").out.find("new-cone.off  unknown "),
+            std::string::npos);
+  EXPECT_EQ(Json::parse(run("classify shapes.spincat new-cone.off --json --reject 0").out).at("category"), "cone");
+}
+
+TEST_F(Command, SweepWritesATableAndGoesOnFromItsJournal) {
+  make_shapes();
+  const std::string sweep =
+      "sweep shapes --vary c=3,30 --vary spin.spin-points=16,32 --splits 2 --copies 0 --points 256 -o s.csv";
+  const Result first = run(sweep);
+  ASSERT_EQ(first.code, 0) << first.err;
+  EXPECT_EQ(lines(first.out).size(), 5U) << first.out;
+  const std::string csv = contents(dir_.path() / "s.csv");
+  EXPECT_EQ(lines(csv)[0].rfind("c,spin.spin-points,mean_class_rate,mean_class_rate_std,", 0), 0U) << csv;
+  EXPECT_EQ(lines(csv)[4].rfind("30,32,1,0,", 0), 0U) << csv;
+  EXPECT_EQ(lines(contents(dir_.path() / "s.csv.journal")).size(), 5U);
+  EXPECT_EQ(run(sweep).out, first.out);  // all from the journal: even the times are the same
+  EXPECT_EQ(contents(dir_.path() / "s.csv"), csv);
+  const Result other = run(sweep + " --seed 2");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("s.csv.journal: is the journal of another sweep (seed differs)"), std::string::npos);
+}
+
 TEST_F(Command, OneSeedGivesTheSameBytesWhateverTheThreads) {
   make_shapes();
   ASSERT_EQ(run("train shapes -o a.spincat --copies 1 --points 256 --spin-points 32 --threads 1").code, 0);
@@ -255,6 +286,12 @@ TEST_F(Command, WrongUseAndBadInputAreOneLineAndExitTwo) {
       {"evaluate shapes --official --leave-one-out", "exclude each other"},
       {"evaluate shapes --official", "shapes: has no split of its own"},
       {"evaluate shapes --unknown absent", "absent: "},
+      {"sweep shapes", "--vary"},
+      {"sweep shapes --vary c", "--vary c: expected a setting and its values"},
+      {"sweep shapes --vary c=1,", "--vary c=1,: expected a setting and its values"},
+      {"sweep shapes --vary colour=1", "setting 'colour' is not known"},
+      {"sweep shapes --vary c=1 -o s.txt", "s.txt: expected a name that ends in .json or .csv"},
+      {"classify shapes.spincat new-cone.off --reject 2", "--reject"},
       {"classify shapes.spincat", "files is required"},
       {"classify new-cone.off new-cone.off", "new-cone.off: is not a spincat"},
       {"classify shapes.spincat shapes.spincat", "shapes.spincat: is a spincat model, not an object"},

@@ -25,18 +25,18 @@ std::vector<JudgedObject> votes_by(double slope, double offset, double unit) {
     const double margin = unit * (-1.0 + 3.0 * k / 40.0);
     const long right = std::lround(1000.0 * logistic(slope * margin + offset));
     for (int i = 0; i < 1000; ++i) {
-      votes.push_back({margin, i < right});
+      votes.push_back({margin, i < right, 0.0});
     }
   }
   return votes;
 }
 
 TEST(Calibration, IsTheLogisticFunctionOfTheWeakestMargin) {
-  EXPECT_DOUBLE_EQ(confidence_at({2.0, 0.0}, 0.0), 0.5);
-  EXPECT_DOUBLE_EQ(confidence_at({2.0, 0.5}, 1.0), logistic(2.5));
+  EXPECT_DOUBLE_EQ(confidence_at({2.0, 0.0, 0.0}, 0.0), 0.5);
+  EXPECT_DOUBLE_EQ(confidence_at({2.0, 0.5, 0.0}, 1.0), logistic(2.5));
   for (const double margin : {-1e30, 1e30}) {
-    EXPECT_GT(confidence_at({2.0, 0.0}, margin), 0.0);
-    EXPECT_LT(confidence_at({2.0, 0.0}, margin), 1.0);
+    EXPECT_GT(confidence_at({2.0, 0.0, 0.0}, margin), 0.0);
+    EXPECT_LT(confidence_at({2.0, 0.0, 0.0}, margin), 1.0);
   }
 }
 
@@ -54,16 +54,16 @@ TEST_P(CalibrationUnit, RecoversALogisticFunction) {
 INSTANTIATE_TEST_SUITE_P(Units, CalibrationUnit, testing::Values(0.02, 1.0, 50.0));
 
 TEST(FitCalibration, OfFewerThanTenVotesIsTheDefault) {
-  const std::vector<JudgedObject> nine(9, {1.0, false});
+  const std::vector<JudgedObject> nine(9, {1.0, false, 0.0});
   EXPECT_EQ(fit_calibration(nine).slope, Calibration{}.slope);
   EXPECT_EQ(fit_calibration(nine).offset, Calibration{}.offset);
-  EXPECT_LT(fit_calibration(std::vector<JudgedObject>(10, {1.0, false})).offset, 0.0);
+  EXPECT_LT(fit_calibration(std::vector<JudgedObject>(10, {1.0, false, 0.0})).offset, 0.0);
 }
 
 TEST(FitCalibration, VotesThatAreAllRightGiveNoCertainty) {
   std::vector<JudgedObject> votes;
   for (int i = 0; i < 30; ++i) {
-    votes.push_back({0.1 * i, true});
+    votes.push_back({0.1 * i, true, 0.0});
   }
   const Calibration found = fit_calibration(votes);
   EXPECT_NEAR(confidence_at(found, 1.5), 31.0 / 32.0, 0.01);  // Platt's target for 30 right votes
@@ -73,7 +73,7 @@ TEST(FitCalibration, VotesThatAreAllRightGiveNoCertainty) {
 TEST(FitCalibration, OfMarginsThatSayNothingIsTheShareThatIsRight) {
   std::vector<JudgedObject> votes;
   for (int i = 0; i < 400; ++i) {
-    votes.push_back({i % 2 == 0 ? 0.5 : 1.5, i / 2 % 4 != 0});
+    votes.push_back({i % 2 == 0 ? 0.5 : 1.5, i / 2 % 4 != 0, 0.0});
   }
   EXPECT_NEAR(confidence_at(fit_calibration(votes), 1.0), 0.75, 0.01);
 }
@@ -82,17 +82,63 @@ TEST(FitCalibration, ALargerMarginNeverMeansLessConfidence) {
   // Small margins are right, large ones are wrong: the best that rises is the share that is right, for every margin.
   std::vector<JudgedObject> votes;
   for (int i = 0; i < 200; ++i) {
-    votes.push_back({5.0 + 0.01 * i, i < 100});
+    votes.push_back({5.0 + 0.01 * i, i < 100, 0.0});
   }
   const Calibration found = fit_calibration(votes);
   EXPECT_EQ(found.slope, 0.0);
   EXPECT_NEAR(confidence_at(found, 6.0), 0.5, 0.01);
 }
 
+// Known objects are familiar and strangers are not; margins tell right from wrong.
+std::vector<JudgedObject> known_votes() {
+  std::vector<JudgedObject> votes;
+  for (int i = 0; i < 200; ++i) {
+    const double margin = 0.01 * (i - 40);
+    votes.push_back({margin, i % 50 < i / 4, 0.1 * (i % 7 - 3)});
+  }
+  return votes;
+}
+
+std::vector<JudgedObject> strangers_at(double familiarity) {
+  std::vector<JudgedObject> strangers;
+  for (int i = 0; i < 200; ++i) {
+    strangers.push_back({0.01 * (i - 40), false, familiarity + 0.1 * (i % 7 - 3)});
+  }
+  return strangers;
+}
+
+TEST(FitCalibration, StrangersMakeFamiliarityCount) {
+  const Calibration alone = fit_calibration(known_votes());
+  EXPECT_EQ(alone.familiarity_slope, 0.0);
+  const Calibration with = fit_calibration(known_votes(), strangers_at(-3.0));
+  EXPECT_GT(with.slope, 0.0);
+  EXPECT_GT(with.familiarity_slope, 0.0);
+  Ballot ballot;
+  ballot.weakest_margin = 1.0F;
+  EXPECT_GT(with.confidence(ballot, 0.0), with.confidence(ballot, -3.0) + 0.1);
+}
+
+TEST(FitCalibration, StrangersDoNotLowerTheConfidenceInKnownObjects) {
+  const Calibration with = fit_calibration(known_votes(), strangers_at(-3.0));
+  double confidence = 0.0;
+  double right = 0.0;
+  for (const JudgedObject& vote : known_votes()) {
+    Ballot ballot;
+    ballot.weakest_margin = static_cast<float>(vote.weakest_margin);
+    confidence += with.confidence(ballot, vote.familiarity) / 200.0;
+    right += vote.right ? 1.0 / 200.0 : 0.0;
+  }
+  EXPECT_NEAR(confidence, right, 0.02);
+}
+
+TEST(FitCalibration, FamiliarityNeverCountsAgainstAVote) {
+  EXPECT_EQ(fit_calibration(known_votes(), strangers_at(+3.0)).familiarity_slope, 0.0);
+}
+
 TEST(FitCalibration, OfEqualMarginsIsDefined) {
   std::vector<JudgedObject> votes;
   for (int i = 0; i < 40; ++i) {
-    votes.push_back({0.0, i % 4 != 0});
+    votes.push_back({0.0, i % 4 != 0, 0.0});
   }
   EXPECT_NEAR(confidence_at(fit_calibration(votes), 0.0), 0.75, 0.03);
 }

@@ -36,7 +36,12 @@ Model small_model() {
   }
   model.judges.bias = Eigen::Vector3f(0.1F, -0.0F, std::numeric_limits<float>::denorm_min());
   model.judges.support_vectors = {4, 5, 6};
-  model.calibration = {1.0 / 3.0, -0.2};
+  model.calibration = {1.0 / 3.0, -0.2, 0.7};
+  FeatureMatrix objects(4, 5);
+  for (Eigen::Index i = 0; i < 20; ++i) {
+    objects(i / 5, i % 5) = 0.3F * static_cast<float>(i % 7);
+  }
+  model.familiarity = make_familiarity(objects, {0, 1, 2, 0}, 3);
   model.dataset = "a \"data\" set";
   model.object_counts = {7, 8, 9};
   model.made_by = "spincat 0.1.0";
@@ -99,6 +104,11 @@ TEST(ModelFile, RoundTripsExactly) {
   EXPECT_EQ(back.judges.support_vectors, model.judges.support_vectors);
   EXPECT_EQ(back.calibration.slope, model.calibration.slope);
   EXPECT_EQ(back.calibration.offset, model.calibration.offset);
+  EXPECT_EQ(back.calibration.familiarity_slope, model.calibration.familiarity_slope);
+  EXPECT_EQ(back.familiarity.objects, model.familiarity.objects);
+  EXPECT_EQ(back.familiarity.labels, model.familiarity.labels);
+  EXPECT_EQ(back.familiarity.typical, model.familiarity.typical);
+  EXPECT_EQ(back.familiarity.spread, model.familiarity.spread);
   EXPECT_EQ(back.dataset, model.dataset);
   EXPECT_EQ(back.object_counts, model.object_counts);
   EXPECT_EQ(back.made_by, model.made_by);

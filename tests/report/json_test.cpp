@@ -63,6 +63,13 @@ TEST(ClassificationJson, TellsEveryJudgesWord) {
   EXPECT_EQ(json["judges"][0], (Json{{"a", "bed"}, {"b", "chair \"x\""}, {"vote", "chair \"x\""}, {"margin", -0.5}}));
 }
 
+TEST(ClassificationJson, OfARejectedNameIsUnknown) {
+  const Json json = parsed(classification_json("a.obj", chair(), two_categories(), false, true));
+  EXPECT_EQ(keys_of(json), (Keys{"file", "category", "confidence", "votes", "milliseconds", "best_guess"}));
+  EXPECT_EQ(json["category"], "unknown");
+  EXPECT_EQ(json["best_guess"], "chair \"x\"");
+}
+
 TEST(ErrorJson, HasThePromisedKeys) {
   const Json json = parsed(error_json("a \"b\"\\\n.obj", "line 3: bad"));
   EXPECT_EQ(keys_of(json), (Keys{"file", "error"}));

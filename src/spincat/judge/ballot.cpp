@@ -39,4 +39,24 @@ Ballot count_votes(std::uint32_t categories, std::span<const float> margins) {
   return ballot;
 }
 
+Ballot ballot_without(const Ballot& ballot, std::uint32_t category) {
+  std::vector<float> margins;
+  for (const Vote& vote : ballot.votes) {
+    if (vote.category_a != category && vote.category_b != category) {
+      margins.push_back(vote.margin);
+    }
+  }
+  Ballot result = count_votes(static_cast<std::uint32_t>(ballot.count.size()) - 1, margins);
+  const auto renumber = [&](std::uint32_t& number) { number += number >= category ? 1 : 0; };
+  for (Vote& vote : result.votes) {
+    renumber(vote.category_a);
+    renumber(vote.category_b);
+  }
+  renumber(result.winner);
+  renumber(result.runner_up);
+  result.count.insert(result.count.begin() + category, 0);
+  result.margin_sum.insert(result.margin_sum.begin() + category, 0.0F);
+  return result;
+}
+
 }  // namespace spincat

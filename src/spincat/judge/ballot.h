@@ -35,4 +35,8 @@ struct Ballot {
 // the order above. Deterministic. Precondition: categories >= 2, margins.size() == categories (categories - 1) / 2.
 Ballot count_votes(std::uint32_t categories, std::span<const float> margins);
 
+// The vote as it would be if no judge knew `category`: what comes of an object whose category was never taught. The
+// other categories keep their numbers; `category` has no votes. Precondition: three or more categories.
+Ballot ballot_without(const Ballot& ballot, std::uint32_t category);
+
 }  // namespace spincat

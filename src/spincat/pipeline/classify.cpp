@@ -17,7 +17,8 @@ Classification classify(const Model& model, const Object& object) {
   }
   Stopwatch watch;
   result.ballot = model.judges.vote(features.values);
-  result.confidence = model.calibration.confidence(result.ballot);
+  const double familiarity = model.familiarity.of(features.values, result.ballot.winner);
+  result.confidence = model.calibration.confidence(result.ballot, familiarity);
   result.seconds.judge = watch.lap();
   return result;
 }

@@ -8,19 +8,21 @@
 #include <vector>
 
 #include "spincat/judge/calibration.h"
+#include "spincat/judge/familiarity.h"
 #include "spincat/judge/judge_list.h"
 #include "spincat/pipeline/settings.h"
 
 namespace spincat {
 
 // The newest version of the model file that this library reads and the one it writes.
-inline constexpr std::uint32_t kModelVersion = 1;
+inline constexpr std::uint32_t kModelVersion = 2;
 
 struct Model {
   Settings settings;
   std::vector<std::string> categories;  // n, in the order of the judges
   JudgeList judges;
   Calibration calibration;
+  Familiarity familiarity;
   std::string dataset;                       // what it was trained on, as the user named it
   std::vector<std::uint32_t> object_counts;  // n: training objects of each category, copies not counted
   std::string made_by;                       // "spincat 0.1.0"

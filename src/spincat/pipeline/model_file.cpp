@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include <set>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "spincat/error.h"
 #include "spincat/io/file.h"
@@ -116,6 +118,50 @@ JudgeList judges_from_json(const Json& json, std::size_t categories) {
   return judges;
 }
 
+Json familiarity_to_json(const Familiarity& f) {
+  return {{"labels", f.labels},
+          {"objects", pack_floats({f.objects.data(), static_cast<std::size_t>(f.objects.size())})},
+          {"typical", pack_floats(f.typical)},
+          {"spread", pack_floats(f.spread)}};
+}
+
+Familiarity familiarity_from_json(const Json& json, std::size_t categories, std::size_t features) {
+  Familiarity f;
+  const Json& labels = member(json, "labels");
+  if (!labels.is_array()) {
+    throw InputError("model: 'labels' is no list");
+  }
+  if (labels.empty()) {
+    return f;
+  }
+  f.labels = counts(json, "labels", labels.size());
+  // The blob's size is checked before any memory is taken for it.
+  const Json& objects = member(json, "objects");
+  if (!objects.is_binary() || objects.get_binary().size() / sizeof(float) / features != f.labels.size()) {
+    throw InputError("model: 'objects' is of the wrong size");
+  }
+  f.objects.resize(static_cast<Eigen::Index>(f.labels.size()), static_cast<Eigen::Index>(features));
+  unpack_floats(json, "objects", {f.objects.data(), f.labels.size() * features});
+  f.typical.resize(categories);
+  f.spread.resize(categories);
+  unpack_floats(json, "typical", f.typical);
+  unpack_floats(json, "spread", f.spread);
+  std::vector<bool> present(categories, false);
+  for (const std::uint32_t label : f.labels) {
+    if (label >= categories) {
+      throw InputError("model: 'labels' names a category that is not there");
+    }
+    present[label] = true;
+  }
+  if (std::ranges::find(present, false) != present.end()) {
+    throw InputError("model: 'labels' leaves a category without objects");
+  }
+  if (std::ranges::any_of(f.spread, [](float spread) { return !(spread > 0.0F); })) {
+    throw InputError("model: 'spread' is not above zero");
+  }
+  return f;
+}
+
 Model model_from_json(const Json& json) {
   Model model;
   model.settings = settings_from_json(member(json, "settings"));
@@ -127,9 +173,12 @@ Model model_from_json(const Json& json) {
   model.judges = judges_from_json(member(json, "judges"), n);
   model.calibration.slope = value<double>(member(json, "calibration"), "slope");
   model.calibration.offset = value<double>(member(json, "calibration"), "offset");
-  if (!std::isfinite(model.calibration.slope) || !std::isfinite(model.calibration.offset)) {
+  model.calibration.familiarity_slope = value<double>(member(json, "calibration"), "familiarity_slope");
+  if (!std::isfinite(model.calibration.slope) || !std::isfinite(model.calibration.offset) ||
+      !std::isfinite(model.calibration.familiarity_slope)) {
     throw InputError("model: 'calibration' is not finite");
   }
+  model.familiarity = familiarity_from_json(member(json, "familiarity"), n, model.feature_length());
   model.dataset = value<std::string>(json, "dataset");
   model.made_by = value<std::string>(json, "made_by");
   model.object_counts = counts(json, "object_counts", n);
@@ -142,7 +191,11 @@ void write_model(const std::filesystem::path& file, const Model& model) {
   const Json json = {{"settings", settings_to_json(model.settings)},
                      {"categories", model.categories},
                      {"judges", judges_to_json(model.judges)},
-                     {"calibration", {{"slope", model.calibration.slope}, {"offset", model.calibration.offset}}},
+                     {"calibration",
+                      {{"slope", model.calibration.slope},
+                       {"offset", model.calibration.offset},
+                       {"familiarity_slope", model.calibration.familiarity_slope}}},
+                     {"familiarity", familiarity_to_json(model.familiarity)},
                      {"dataset", model.dataset},
                      {"object_counts", model.object_counts},
                      {"made_by", model.made_by}};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "spincat/dataset/splits.h"
@@ -55,6 +56,17 @@ JudgeList teach_judges(const FeatureTable& table, const Eigen::MatrixXf& gram, s
   return JudgeList::fold(categories, judges);
 }
 
+Familiarity familiarity_of(const FeatureTable& table, std::span<const std::uint32_t> objects) {
+  FeatureMatrix features(static_cast<Eigen::Index>(objects.size()), table.features.cols());
+  std::vector<std::uint32_t> labels;
+  for (const std::uint32_t object : objects) {
+    features.row(static_cast<Eigen::Index>(labels.size())) =
+        table.features.row(static_cast<Eigen::Index>(object) * table.rows_per_object);
+    labels.push_back(table.objects[object].category);
+  }
+  return make_familiarity(std::move(features), std::move(labels), static_cast<std::uint32_t>(table.categories.size()));
+}
+
 Calibration calibrate(const FeatureTable& table, const Eigen::MatrixXf& gram, std::span<const std::uint32_t> objects,
                       const JudgeSettings& settings, std::uint64_t seed, int threads, const Progress& progress) {
   constexpr int kFolds = 5;
@@ -68,22 +80,30 @@ Calibration calibrate(const FeatureTable& table, const Eigen::MatrixXf& gram, st
     ++in_category[labels.back()];
   }
   std::vector<JudgedObject> votes;
+  std::vector<JudgedObject> strangers;
   for (Split& fold : stratified_folds(labels, kFolds, derive_seed(seed, kCalibrationPurpose))) {
     std::vector<std::uint32_t> judged;
     for (const std::uint32_t i : fold.test) {
       (in_category[labels[i]] > 1 ? judged : fold.train).push_back(i);
     }
     std::ranges::sort(fold.train);
-    const JudgeList judges = teach_judges(table, gram, picked(objects, fold.train), settings, threads, Progress{});
+    const std::vector<std::uint32_t> taught = picked(objects, fold.train);
+    const JudgeList judges = teach_judges(table, gram, taught, settings, threads, Progress{});
+    const Familiarity familiarity = familiarity_of(table, taught);
     for (const std::uint32_t i : judged) {
-      const Ballot ballot = judges.vote(table.features_of(objects[i]));
-      votes.push_back({ballot.weakest_margin, ballot.winner == labels[i]});
+      const std::span<const float> features = table.features_of(objects[i]);
+      const Ballot ballot = judges.vote(features);
+      votes.push_back({ballot.weakest_margin, ballot.winner == labels[i], familiarity.of(features, ballot.winner)});
+      if (table.categories.size() > 2) {
+        const Ballot as_stranger = ballot_without(ballot, labels[i]);
+        strangers.push_back({as_stranger.weakest_margin, false, familiarity.of(features, as_stranger.winner)});
+      }
     }
     if (progress) {
       progress("calibrating", votes.size(), objects.size());
     }
   }
-  return fit_calibration(votes);
+  return fit_calibration(votes, strangers);
 }
 
 }  // namespace spincat

@@ -21,6 +21,7 @@ TrainResult train(const Dataset& dataset, const Settings& settings, const TrainO
   TrainResult result;
   Model& model = result.model;
   model.judges = teach_judges(table, gram, objects, settings.judge, options.threads, progress);
+  model.familiarity = familiarity_of(table, objects);
   model.calibration = calibrate(table, gram, objects, settings.judge, settings.seed, options.threads, progress);
 
   // Keep what classifying needs to repeat all of this.

@@ -23,14 +23,17 @@ Json model_facts(const std::string& file, const Model& model) {
 }  // namespace
 
 std::string classification_json(const std::string& file, const Classification& classification, const Model& model,
-                                bool every_judge) {
+                                bool every_judge, bool rejected) {
   const Ballot& ballot = classification.ballot;
   const StageSeconds& s = classification.seconds;
   Json json = {{"file", file},
-               {"category", model.categories[ballot.winner]},
+               {"category", rejected ? "unknown" : model.categories[ballot.winner]},
                {"confidence", classification.confidence},
                {"votes", by_category(model.categories, ballot.count)},
                {"milliseconds", 1e3 * (s.read + s.prepare + s.spin + s.encode + s.judge)}};
+  if (rejected) {
+    json["best_guess"] = model.categories[ballot.winner];
+  }
   if (every_judge) {
     Json judges = Json::array();
     for (const Vote& vote : ballot.votes) {

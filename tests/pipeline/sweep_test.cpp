@@ -151,10 +151,10 @@ TEST_F(Sweeps, ImpossibleSweepsAreRefusedBeforeAnyWork) {
 
 TEST(WithSetting, TakesNamesAsPeopleWriteThem) {
   for (const char* name : {"bin_size", "bin-size", "spin.bin_size", "a.b.bin-size"}) {
-    EXPECT_EQ(with_setting(Settings{}, name, "0.125").spin.bin_size, 0.125) << name;
+    EXPECT_EQ(with_setting(preset("default"), name, "0.125").spin.bin_size, 0.125) << name;
   }
-  EXPECT_EQ(with_setting(Settings{}, "surface", "samples").prepare.surface, SurfaceKind::samples);
-  EXPECT_EQ(with_setting(Settings{}, "class_weights", "false").judge.class_weights, false);
+  EXPECT_EQ(with_setting(preset("default"), "surface", "samples").prepare.surface, SurfaceKind::samples);
+  EXPECT_EQ(with_setting(preset("default"), "class_weights", "false").judge.class_weights, false);
   const Settings angle = with_setting(preset("default"), "support_angle", "60");
   EXPECT_EQ(angle.spin.angle_test, AngleTest::cutoff);
   EXPECT_EQ(angle.spin.support_angle, 60.0);

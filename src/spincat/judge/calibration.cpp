@@ -109,14 +109,16 @@ JudgedObject without_familiarity(JudgedObject vote) {
   return vote;
 }
 
-// How much familiarity counts for one of margin, found by telling right votes from wrong ones and strangers. Nothing
-// where either would count against the vote.
+// How much familiarity counts for one of margin, found by telling right votes from wrong ones and strangers, but at
+// least as much: categories of one data set are more like each other than what a user will come with, so that they
+// teach too little of it. Nothing where either would count against the vote.
 double weight_of_familiarity(std::span<const JudgedObject> votes, std::span<const JudgedObject> strangers) {
   std::vector<JudgedObject> all(votes.begin(), votes.end());
   all.insert(all.end(), strangers.begin(), strangers.end());
   const Eigen::Vector3d x = minimum_of(Loss(all));
   constexpr double kLeastSlope = 1e-6;
-  return x[0] > kLeastSlope && x[2] > 0.0 ? x[2] / x[0] : 0.0;
+  constexpr double kLeastWeight = 1.0;  // docs/accuracy.md says what was measured for it
+  return x[0] > kLeastSlope && x[2] > 0.0 ? std::max(kLeastWeight, x[2] / x[0]) : 0.0;
 }
 
 }  // namespace

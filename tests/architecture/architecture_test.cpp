@@ -23,7 +23,7 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"encode", {"geometry", "spin"}},
     {"judge", {"encode"}},
     {"parallel", {}},
-    {"camera", {"geometry"}},
+    {"camera", {"geometry", "io"}},
     {"pipeline", {"geometry", "io", "dataset", "prepare", "spin", "encode", "judge", "parallel"}},
     {"report", {"geometry", "dataset", "prepare", "spin", "judge", "pipeline"}},
 };

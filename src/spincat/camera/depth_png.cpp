@@ -37,10 +37,9 @@ DepthImage decode_depth_png(std::string_view bytes, double units_per_metre) {
   std::vector<unsigned char> raw;
   check(lodepng::decode(raw, width, height, data, bytes.size(), LCT_GREY, 8 * bytes_each));
   DepthImage image(static_cast<int>(width), static_cast<int>(height));
-  const auto scale = static_cast<float>(1.0 / units_per_metre);
   for (std::size_t i = 0; i < image.depth.size(); ++i) {
     const unsigned units = bytes_each == 2 ? raw[2 * i] * 256U + raw[2 * i + 1] : raw[i];
-    image.depth[i] = static_cast<float>(units) * scale;
+    image.depth[i] = static_cast<float>(units / units_per_metre);
   }
   return image;
 }

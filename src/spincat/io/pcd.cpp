@@ -15,7 +15,9 @@
 #include "spincat/geometry/object.h"
 #include "spincat/io/binary.h"
 #include "spincat/io/formats.h"
+#include "spincat/io/lzf.h"
 #include "spincat/io/object_builder.h"
+#include "spincat/io/organized_cloud.h"
 #include "spincat/io/read_object.h"
 #include "spincat/io/text_cursor.h"
 
@@ -32,6 +34,8 @@ struct Field {
 struct Header {
   std::vector<Field> fields;
   std::uint64_t points = 0;
+  std::uint64_t width = 0;   // of the picture that the points make up; 0 where the file does not say
+  std::uint64_t height = 1;  // 1: they make up none
   std::optional<Vec3> sensor;
   std::string encoding;  // what follows DATA
 
@@ -126,6 +130,8 @@ class HeaderReader {
       points_ = area;
     }
     header_.points = *points_;
+    header_.width = width_.value_or(0);
+    header_.height = height_.value_or(1);
     text_.skip_line();
     return header_;
   }
@@ -177,23 +183,49 @@ WantedFields find_fields(const Header& header) {
   return wanted;
 }
 
-void add_point(const std::array<double, 6>& values, std::size_t number, ObjectBuilder& object) {
-  const Vec3 point(values[0], values[1], values[2]);
-  if (number == 6) {
-    object.add_point(point, Vec3(values[3], values[4], values[5]));
-  } else {
-    object.add_point(point);
+// What becomes of the points of a file.
+class PointSink {
+ public:
+  virtual ~PointSink() = default;
+  virtual void expect(std::uint64_t points) = 0;  // called once the file is known to be long enough
+  virtual void add(const Vec3& point, const Vec3* normal) = 0;
+};
+
+class ObjectSink : public PointSink {
+ public:
+  explicit ObjectSink(ObjectBuilder& object) : object_(object) {}
+  void expect(std::uint64_t points) override { object_.expect_vertices(points); }
+  void add(const Vec3& point, const Vec3* normal) override {
+    normal != nullptr ? object_.add_point(point, *normal) : object_.add_point(point);
   }
+
+ private:
+  ObjectBuilder& object_;
+};
+
+class PictureSink : public PointSink {
+ public:
+  explicit PictureSink(std::vector<Vec3>& points) : points_(points) {}
+  void expect(std::uint64_t points) override { points_.reserve(points); }
+  void add(const Vec3& point, const Vec3*) override { points_.push_back(point); }
+
+ private:
+  std::vector<Vec3>& points_;
+};
+
+void add_point(const std::array<double, 6>& values, std::size_t number, PointSink& sink) {
+  const Vec3 normal(values[3], values[4], values[5]);
+  sink.add(Vec3(values[0], values[1], values[2]), number == 6 ? &normal : nullptr);
 }
 
 [[noreturn]] void fail_cut_off(const Header& header) {
   throw InputError(fmt::format("announces {} points, more than fit into the rest of the file", header.points));
 }
 
-void read_text(const Header& header, TextCursor& text, ObjectBuilder& object) {
+void read_text(const Header& header, TextCursor& text, PointSink& sink) {
   const WantedFields wanted = find_fields(header);
   if (header.points > (text.bytes_left() + 1) / (2 * header.values_per_point())) fail_cut_off(header);
-  object.expect_vertices(header.points);
+  sink.expect(header.points);
   for (std::uint64_t i = 0; i < header.points; ++i, text.skip_line()) {
     if (!text.word_follows()) text.fail(fmt::format("the file ends after {} of {} points", i, header.points));
     std::array<double, 6> values{};
@@ -205,7 +237,7 @@ void read_text(const Header& header, TextCursor& text, ObjectBuilder& object) {
         if (k == 0 && place != last) values[static_cast<std::size_t>(place - wanted.index.begin())] = value;
       }
     }
-    add_point(values, wanted.number, object);
+    add_point(values, wanted.number, sink);
   }
 }
 
@@ -217,7 +249,7 @@ struct Column {
 };
 
 // `bytes` holds header.points * header.point_size() bytes: point after point, or `by_field`, field after field.
-void read_values(const Header& header, std::string_view bytes, bool by_field, ObjectBuilder& object) {
+void read_values(const Header& header, std::string_view bytes, bool by_field, PointSink& sink) {
   const WantedFields wanted = find_fields(header);
   std::array<Column, 6> columns{};
   for (std::size_t w = 0; w < wanted.number; ++w) {
@@ -227,47 +259,16 @@ void read_values(const Header& header, std::string_view bytes, bool by_field, Ob
     columns[w] = by_field ? Column{scalar_type(field), offset * header.points, field.size * field.count}
                           : Column{scalar_type(field), offset, header.point_size()};
   }
-  object.expect_vertices(header.points);
+  sink.expect(header.points);
   for (std::uint64_t i = 0; i < header.points; ++i) {
     std::array<double, 6> values{};
     for (std::size_t w = 0; w < wanted.number; ++w)
       values[w] = load_scalar(bytes.data() + columns[w].offset + i * columns[w].stride, columns[w].type);
-    add_point(values, wanted.number, object);
+    add_point(values, wanted.number, sink);
   }
 }
 
-// Unpacks LZF: runs of literal bytes, and copies of up to 264 bytes from at most 8 kB back.
-std::string unpack_lzf(std::string_view packed, std::size_t size) {
-  std::string out;
-  out.reserve(size);
-  std::size_t at = 0;
-  const auto fail = [] { throw InputError("its compressed points are damaged"); };
-  const auto next = [&]() -> std::size_t {
-    if (at == packed.size()) fail();
-    return static_cast<unsigned char>(packed[at++]);
-  };
-  while (at < packed.size()) {
-    const std::size_t control = next();
-    if (control < 32) {
-      const std::size_t run = control + 1;
-      if (run > packed.size() - at || run > size - out.size()) fail();
-      out.append(packed.substr(at, run));
-      at += run;
-    } else {
-      std::size_t length = control >> 5;
-      if (length == 7) length += next();
-      length += 2;
-      const std::size_t back = ((control & 31) << 8) + next() + 1;
-      if (back > out.size() || length > size - out.size()) fail();
-      // Byte by byte: the copy may run into what it has just written.
-      for (std::size_t i = 0; i < length; ++i) out.push_back(out[out.size() - back]);
-    }
-  }
-  if (out.size() != size) fail();
-  return out;
-}
-
-void read_compressed(const Header& header, std::string_view bytes, ObjectBuilder& object) {
+void read_compressed(const Header& header, std::string_view bytes, PointSink& sink) {
   if (bytes.size() < 8) fail_cut_off(header);
   const std::size_t packed_size = load<std::uint32_t>(bytes.data());
   const std::size_t size = load<std::uint32_t>(bytes.data() + 4);
@@ -278,7 +279,23 @@ void read_compressed(const Header& header, std::string_view bytes, ObjectBuilder
                                  header.points, header.point_size(), size));
   constexpr std::size_t best_ratio = 88;  // 264 bytes out of 3
   if (size / best_ratio > packed_size) throw InputError("its compressed points are damaged");
-  read_values(header, unpack_lzf(bytes.substr(0, packed_size), size), true, object);
+  read_values(header, unpack_lzf(bytes.substr(0, packed_size), size), true, sink);
+}
+
+// The points behind the header, in whatever form they come.
+void read_points(const Header& header, TextCursor& text, std::string_view bytes, PointSink& sink) {
+  const std::string_view body = bytes.substr(bytes.size() - text.bytes_left());
+  if (header.encoding == "ascii") {
+    read_text(header, text, sink);
+  } else if (header.encoding == "binary") {
+    if (header.points > body.size() / header.point_size()) fail_cut_off(header);
+    read_values(header, body, false, sink);
+  } else if (header.encoding == "binary_compressed") {
+    read_compressed(header, body, sink);
+  } else {
+    throw InputError("unknown data format " + in_quotes(header.encoding) +
+                     "; expected ascii, binary or binary_compressed");
+  }
 }
 
 }  // namespace
@@ -289,19 +306,30 @@ Object read_pcd(std::string_view bytes, const ReadLimits& limits) {
   ObjectBuilder object(limits);
   object.check_vertices(header.points);
   if (header.sensor) object.set_sensor(*header.sensor);
-  const std::string_view body = bytes.substr(bytes.size() - text.bytes_left());
-  if (header.encoding == "ascii") {
-    read_text(header, text, object);
-  } else if (header.encoding == "binary") {
-    if (header.points > body.size() / header.point_size()) fail_cut_off(header);
-    read_values(header, body, false, object);
-  } else if (header.encoding == "binary_compressed") {
-    read_compressed(header, body, object);
-  } else {
-    throw InputError("unknown data format " + in_quotes(header.encoding) +
-                     "; expected ascii, binary or binary_compressed");
-  }
+  ObjectSink sink(object);
+  read_points(header, text, bytes, sink);
   return object.finish();
 }
 
 }  // namespace spincat::io
+
+namespace spincat {
+
+OrganizedCloud read_organized_pcd(std::string_view bytes) {
+  io::TextCursor text(bytes);
+  const io::Header header = io::HeaderReader(text).read();
+  constexpr std::uint64_t kLongestSide = 8'192;
+  if (header.height < 2 || header.width < 2) {
+    throw InputError("its points make up no picture (HEIGHT 2 or more was expected)");
+  }
+  if (header.width > kLongestSide || header.height > kLongestSide) {
+    throw InputError(fmt::format("is {} x {} points large (at most {} x {})", header.width, header.height, kLongestSide,
+                                 kLongestSide));
+  }
+  OrganizedCloud cloud{static_cast<int>(header.width), static_cast<int>(header.height), {}};
+  io::PictureSink sink(cloud.points);
+  io::read_points(header, text, bytes, sink);
+  return cloud;
+}
+
+}  // namespace spincat

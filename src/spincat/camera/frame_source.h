@@ -1,0 +1,43 @@
+// Where depth frames come from.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "spincat/camera/depth_image.h"
+
+namespace spincat {
+
+struct Frame {
+  std::string name;   // of its file
+  double time = 0.0;  // seconds, as the recording tells it; else its number over 30
+  DepthImage image;
+  Intrinsics intrinsics;
+};
+
+// Frames one after the other.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+
+  // The next frame, or nothing after the last. Throws InputError, naming the file, when a frame cannot be read; the one
+  // after it may be asked for then.
+  virtual std::optional<Frame> next() = 0;
+};
+
+struct FrameSettings {
+  std::optional<std::filesystem::path> calibration;  // a file as read_calibration reads it; else the folder's
+                                                     // camera.txt, else that of a Kinect
+  std::optional<double> units_per_metre;  // of the numbers in depth pictures; else the calibration's
+  bool loop = false;                      // after the last frame comes the first
+};
+
+// A recording: a folder of grey PNG files in the order of their names (of TUM's depth.txt where there is one, which
+// gives times as well), a folder of organized PCD files, or one file of either kind. An organized PCD carries its own
+// calibration. Throws InputError naming the file or folder when there is no frame, or the calibration cannot be read.
+std::unique_ptr<FrameSource> open_recording(const std::filesystem::path& place, const FrameSettings& settings);
+
+}  // namespace spincat

@@ -1,0 +1,175 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "spincat/camera/calibration.h"
+#include "spincat/camera/depth_png.h"
+#include "spincat/camera/frame_source.h"
+#include "spincat/io/file.h"
+#include "spincat/io/organized_cloud.h"
+#include "support/expect_error.h"
+#include "support/temp_dir.h"
+
+namespace spincat {
+namespace {
+
+using test::input_error;
+using test::TempDir;
+
+DepthImage picture_of(float depth) {
+  DepthImage image(4, 3);
+  std::ranges::fill(image.depth, depth);
+  return image;
+}
+
+void write_picture(const std::filesystem::path& file, float depth) {
+  write_file_atomically(file, encode_depth_png(picture_of(depth), 1000.0));
+}
+
+std::vector<float> depths_of(FrameSource& source) {
+  std::vector<float> depths;
+  while (const std::optional<Frame> frame = source.next()) {
+    depths.push_back(frame->image.at(1, 1));
+  }
+  return depths;
+}
+
+TEST(Recording, ComesInTheOrderInWhichPeopleCount) {
+  const TempDir dir;
+  write_picture(dir.path() / "frame10.png", 1.0F);
+  write_picture(dir.path() / "frame9.png", 0.9F);
+  write_picture(dir.path() / "frame0100.png", 2.0F);
+  write_file_atomically(dir.path() / "notes.txt", "not a frame");
+  EXPECT_EQ(depths_of(*open_recording(dir.path(), {})), (std::vector<float>{0.9F, 1.0F, 2.0F}));
+}
+
+TEST(Recording, TakesOrderAndTimesFromTumsList) {
+  const TempDir dir;
+  std::filesystem::create_directory(dir.path() / "depth");
+  write_picture(dir.path() / "depth/a.png", 1.0F);
+  write_picture(dir.path() / "depth/b.png", 2.0F);
+  write_file_atomically(dir.path() / "depth.txt", "# timestamp filename\n10.5 depth/b.png\n10.75 depth/a.png\n");
+  const auto source = open_recording(dir.path(), {});
+  const std::optional<Frame> first = source->next();
+  EXPECT_EQ(first->name, "b.png");
+  EXPECT_EQ(first->time, 10.5);
+  EXPECT_EQ(source->next()->time, 10.75);
+  EXPECT_FALSE(source->next());
+}
+
+TEST(Recording, GoesOnAfterAFrameThatCannotBeRead) {
+  const TempDir dir;
+  write_picture(dir.path() / "1.png", 1.0F);
+  const std::string whole = encode_depth_png(picture_of(1.0F), 1000.0);
+  write_file_atomically(dir.path() / "2.png", whole.substr(0, whole.size() / 2));
+  write_picture(dir.path() / "3.png", 3.0F);
+  const auto source = open_recording(dir.path(), {});
+  EXPECT_TRUE(source->next());
+  EXPECT_NE(input_error([&] { source->next(); }).find("2.png: is no depth picture"), std::string::npos);
+  EXPECT_EQ(source->next()->image.at(0, 0), 3.0F);
+}
+
+TEST(Recording, BeginsAgainWhereItLoops) {
+  const TempDir dir;
+  write_picture(dir.path() / "1.png", 1.0F);
+  write_picture(dir.path() / "2.png", 2.0F);
+  FrameSettings settings;
+  settings.loop = true;
+  const auto source = open_recording(dir.path(), settings);
+  double before = -1.0;
+  for (int k = 0; k < 7; ++k) {
+    const std::optional<Frame> frame = source->next();
+    EXPECT_EQ(frame->image.at(0, 0), k % 2 == 0 ? 1.0F : 2.0F);
+    EXPECT_GT(frame->time, before);
+    before = frame->time;
+  }
+}
+
+TEST(Recording, IsCalibratedByItsFolderOrByAFile) {
+  const TempDir dir;
+  write_picture(dir.path() / "1.png", 1.0F);
+  EXPECT_EQ(open_recording(dir.path(), {})->next()->intrinsics.fx, 525.0);
+  write_file_atomically(dir.path() / "camera.txt", "fx 600\nfy 601\ncx 2\ncy 1\nunits_per_metre 500\n");
+  const std::optional<Frame> frame = open_recording(dir.path(), {})->next();
+  EXPECT_EQ(frame->intrinsics.fy, 601.0);
+  EXPECT_EQ(frame->image.at(0, 0), 2.0F);
+  FrameSettings settings;
+  settings.units_per_metre = 2000.0;
+  EXPECT_EQ(open_recording(dir.path(), settings)->next()->image.at(0, 0), 0.5F);
+  write_file_atomically(dir.path() / "other.txt", "fx 300\nfy 300\ncx 2\ncy 1\nwidth 640\n");
+  settings.calibration = dir.path() / "other.txt";
+  EXPECT_NE(input_error([&] { open_recording(dir.path(), settings)->next(); }).find("640"), std::string::npos);
+}
+
+// An organized cloud of a tilted plane with holes, as PCL writes it.
+std::string organized_pcd(int width, int height, const Intrinsics& k) {
+  std::string text = "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " + std::to_string(width) +
+                     "\nHEIGHT " + std::to_string(height) + "\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " +
+                     std::to_string(width * height) + "\nDATA ascii\n";
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      const double z = 1.0 + 0.01 * u;
+      text += (u + v) % 5 == 0 ? "nan nan nan\n"
+                               : std::to_string((u - k.cx) * z / k.fx) + " " + std::to_string((v - k.cy) * z / k.fy) +
+                                     " " + std::to_string(z) + "\n";
+    }
+  }
+  return text;
+}
+
+TEST(Recording, ReadsOrganizedCloudsWithTheirOwnCalibration) {
+  const TempDir dir;
+  const Intrinsics k{500.0, 510.0, 10.0, 8.0};
+  write_file_atomically(dir.path() / "cloud.pcd", organized_pcd(20, 16, k));
+  const std::optional<Frame> frame = open_recording(dir.path() / "cloud.pcd", {})->next();
+  EXPECT_NEAR(frame->intrinsics.fx, 500.0, 0.5);
+  EXPECT_NEAR(frame->intrinsics.fy, 510.0, 0.5);
+  EXPECT_NEAR(frame->intrinsics.cx, 10.0, 0.01);
+  EXPECT_NEAR(frame->intrinsics.cy, 8.0, 0.01);
+  EXPECT_NEAR(frame->image.at(3, 1), 1.03F, 1e-5F);
+  EXPECT_EQ(frame->image.at(0, 0), 0.0F);
+}
+
+TEST(OrganizedCloud, RefusesWhatIsNoPicture) {
+  EXPECT_NE(input_error([] { read_organized_pcd(organized_pcd(20, 1, {})); }).find("no picture"), std::string::npos);
+  const std::string whole = organized_pcd(20, 16, {});
+  EXPECT_NE(input_error([&] { read_organized_pcd(whole.substr(0, whole.size() / 2)); }), "no error");
+}
+
+TEST(Recording, SaysWhatIsWrongWithThePlace) {
+  const TempDir dir;
+  EXPECT_NE(input_error([&] { open_recording(dir.path() / "none", {}); }).find("no such file"), std::string::npos);
+  EXPECT_NE(input_error([&] { open_recording(dir.path(), {}); }).find("no depth pictures"), std::string::npos);
+}
+
+TEST(Calibration, ReadsWhatItWrote) {
+  Calibration calibration;
+  calibration.intrinsics = {570.5, 571.25, 320.0, 240.125};
+  calibration.units_per_metre = 5000.0;
+  calibration.width = 640;
+  const Calibration back = parse_calibration(calibration_text(calibration));
+  EXPECT_EQ(back.intrinsics.fy, 571.25);
+  EXPECT_EQ(back.intrinsics.cy, 240.125);
+  EXPECT_EQ(back.units_per_metre, 5000.0);
+  EXPECT_EQ(back.width, 640);
+  EXPECT_FALSE(back.height);
+}
+
+TEST(Calibration, SaysWhatIsWrong) {
+  const std::string good = "fx 525\nfy 525\ncx 319.5\n";
+  EXPECT_EQ(input_error([&] { parse_calibration(good); }), "does not give cy");
+  EXPECT_EQ(input_error([&] { parse_calibration(good + "cy half\n"); }),
+            "line 4: expected a name and a number, as in \"fx 525\"");
+  EXPECT_NE(input_error([&] { parse_calibration(good + "cy 1\nfocus 3\n"); }).find("'focus' is not known"),
+            std::string::npos);
+  EXPECT_NE(input_error([&] { parse_calibration("fx 0\nfy 525\ncx 1\ncy 1\n"); }).find("fx 0 is out of range"),
+            std::string::npos);
+  EXPECT_NE(input_error([&] { parse_calibration(good + "cy 1\nunits_per_metre nan\n"); }).find("out of range"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace spincat

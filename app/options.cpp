@@ -108,7 +108,15 @@ void SettingsArguments::add_to(CLI::App& command) {
   command.add_option("--encoding", encoding, fmt::format("One of {}", fmt::join(encoding_names(), ", ")))
       ->group(group)
       ->type_name("NAME");
-  command.add_option("--c", c, "C of the judges' SVMs")->group(group)->type_name("C");
+  command.add_option("--words", words, "Words of the codebook that bag-of-features learns")
+      ->group(group)
+      ->type_name("N");
+  command.add_option("--kernel", kernel, "Of the judges' SVMs: linear or rbf (over the encoding's blocks)")
+      ->group(group)
+      ->type_name("NAME");
+  command.add_option("--c", c, "C of the judges' SVMs; without it, the one that suits the kernel")
+      ->group(group)
+      ->type_name("C");
   command.add_option("--copies", copies, "Stretched copies of each training object")->group(group)->type_name("N");
 }
 
@@ -122,8 +130,13 @@ Settings SettingsArguments::applied_to(Settings s) const {
   override(s.prepare.spin_points, spin_points);
   override(s.spin.image_width, image_width);
   override(s.encoding, encoding);
-  override(s.judge.c, c);
+  override(s.words, words);
   override(s.copies, copies);
+  if (kernel) {
+    s.judge.kernel = choice_of<KernelKind>("--kernel", *kernel);
+    s.judge.c = default_c(s.judge.kernel);
+  }
+  override(s.judge.c, c);
   if (surface) {
     s.prepare.surface = choice_of<SurfaceKind>("--surface", *surface);
   }

@@ -44,6 +44,8 @@ struct SettingsArguments {
   std::optional<double> support_angle;
   std::optional<std::string> surface;
   std::optional<std::string> encoding;
+  std::optional<int> words;
+  std::optional<std::string> kernel;
   std::optional<double> c;
   std::optional<int> copies;
 

@@ -73,10 +73,10 @@ TEST(AllPairs, AreInTheOrderOfTheJudges) {
 // Teaches the only judge of two categories on one-dimensional points.
 Judge teach(const std::vector<float>& x, const std::vector<std::uint32_t>& labels, const JudgeSettings& settings) {
   const FeatureMatrix features = column(x);
-  const Eigen::MatrixXf gram = gram_matrix(features, 1);
+  const SharedGram gram = make_shared_gram(KernelKind::linear, {}, features, 1);
   std::vector<std::uint32_t> rows(x.size());
   std::iota(rows.begin(), rows.end(), 0U);
-  return TrainingSet(features, gram, labels, rows, 2).teach({0, 1}, settings);
+  return TrainingSet(features, gram, {}, labels, rows, 2).teach({0, 1}, settings);
 }
 
 TEST(TrainingSet, ClassWeightsKeepALargeCategoryFromOutvotingASmallOne) {
@@ -91,28 +91,30 @@ TEST(TrainingSet, ClassWeightsKeepALargeCategoryFromOutvotingASmallOne) {
       ++moved;
     }
   }
-  const Judge weighed = teach(x, labels, {200.0, true});
+  const Judge weighed = teach(x, labels, {KernelKind::linear, 200.0, true});
   EXPECT_NEAR(weighed.weights[0], 1.0, kSolved);
   EXPECT_NEAR(weighed.bias, 0.0, kSolved);
-  const Judge counted = teach(x, labels, {200.0, false});
+  const Judge counted = teach(x, labels, {KernelKind::linear, 200.0, false});
   EXPECT_NEAR(counted.weights[0] + counted.bias, -1.0, kSolved);
   EXPECT_NEAR(-counted.weights[0] + counted.bias, -1.0, kSolved);
 }
 
 TEST(TrainingSet, PricesAreCTimesAllObjectsByThoseOfTheCategory) {
   // Both at one place: the multipliers reach the smaller price. Three objects, two categories: 3/2 and 3/4 of C.
-  const Judge judge = teach({1, 1, 1}, {0, 1, 1}, {4.0, true});
+  const Judge judge = teach({1, 1, 1}, {0, 1, 1}, {KernelKind::linear, 4.0, true});
   EXPECT_EQ(judge.support_vectors, 3U);
   // Balanced, the two sides pull equally, at twice C 3/4: the weight is 1 * 6 - 1 * 6.
   EXPECT_NEAR(judge.weights[0], 0.0, kSolved);
 }
+
+const std::vector<std::uint32_t> kBlocks = {2, 5, 1};
 
 // Three noisy clouds in eight dimensions, rows of the categories mixed.
 struct ThreeClouds {
   FeatureMatrix features = FeatureMatrix(45, 8);
   std::vector<std::uint32_t> labels;
   std::vector<std::uint32_t> rows;  // those to learn from: two in three
-  Eigen::MatrixXf gram;
+  SharedGram gram;
 
   ThreeClouds() {
     Random random(1);
@@ -125,16 +127,16 @@ struct ThreeClouds {
         rows.push_back(i);
       }
     }
-    gram = gram_matrix(features, 1);
+    gram = make_shared_gram(KernelKind::linear, kBlocks, features, 1);
   }
 
-  JudgeList judges(const Eigen::MatrixXf& shared_gram) const {
-    const TrainingSet training(features, shared_gram, labels, rows, 3);
+  JudgeList judges(const SharedGram& shared_gram, KernelKind kind = KernelKind::linear) const {
+    const TrainingSet training(features, shared_gram, fit_kernel(kind, kBlocks, features, rows), labels, rows, 3);
     std::vector<Judge> taught;
     for (const CategoryPair pair : all_pairs(3)) {
-      taught.push_back(training.teach(pair, {}));
+      taught.push_back(training.teach(pair, {kind, default_c(kind), true}));
     }
-    return JudgeList::fold(3, taught);
+    return training.list(taught);
   }
 };
 
@@ -172,18 +174,68 @@ TEST(JudgeList, VotesAsTheSupportVectorsDo) {
       }
     }
     const auto all = static_cast<double>(clouds.rows.size());
-    const PairwiseSvm svm = train_pairwise_svm(clouds.gram(rows, rows), first_count, 200.0 * all / (3.0 * counts[0]),
-                                               200.0 * all / (3.0 * counts[1]));
+    const PairwiseSvm svm = train_pairwise_svm(clouds.gram.blocks[0](rows, rows), first_count,
+                                               200.0 * all / (3.0 * counts[0]), 200.0 * all / (3.0 * counts[1]));
     EXPECT_EQ(judges.support_vectors[l], svm.object.size());
     for (std::uint32_t i = 0; i < 45; ++i) {
       double margin = svm.bias;
       for (std::size_t s = 0; s < svm.object.size(); ++s) {
-        margin += svm.coefficient[s] * static_cast<double>(clouds.gram(rows[svm.object[s]], i));
+        margin += svm.coefficient[s] * static_cast<double>(clouds.gram.blocks[0](rows[svm.object[s]], i));
       }
       const Ballot ballot = judges.vote({clouds.features.row(i).data(), 8});
       EXPECT_NEAR(ballot.votes[l].margin, margin, 1e-3 * (1.0 + std::abs(margin)));
     }
   }
+}
+
+TEST(JudgeList, RbfVotesAsTheSupportVectorsDo) {
+  const ThreeClouds clouds;
+  const SharedGram gram = make_shared_gram(KernelKind::rbf, kBlocks, clouds.features, 1);
+  const JudgeList judges = clouds.judges(gram, KernelKind::rbf);
+  const Kernel kernel = fit_kernel(KernelKind::rbf, kBlocks, clouds.features, clouds.rows);
+  const TrainingSet training(clouds.features, gram, kernel, clouds.labels, clouds.rows, 3);
+  const std::vector<CategoryPair> pairs = all_pairs(3);
+  EXPECT_EQ(judges.feature_length(), 8U);
+  EXPECT_LE(judges.supports.rows(), 30);  // each training object once, however many judges lean on it
+  for (std::size_t l = 0; l < pairs.size(); ++l) {
+    const Judge judge = training.teach(pairs[l], {KernelKind::rbf, default_c(KernelKind::rbf), true});
+    ASSERT_EQ(judge.rows.size(), judge.support_vectors);
+    for (std::uint32_t i = 0; i < 45; ++i) {
+      double margin = judge.bias;
+      for (std::size_t s = 0; s < judge.rows.size(); ++s) {
+        const std::vector<std::uint32_t> two = {judge.rows[s], i};
+        const Eigen::MatrixXf k = kernel_matrix(kernel, clouds.features, {}, two);
+        margin += static_cast<double>(judge.coefficients[s]) * static_cast<double>(k(0, 1));
+      }
+      const Ballot ballot = judges.vote({clouds.features.row(i).data(), 8});
+      EXPECT_NEAR(ballot.votes[l].margin, margin, 1e-4 * (1.0 + std::abs(margin)));
+    }
+  }
+}
+
+TEST(JudgeList, RbfTellsARingFromItsMiddle) {
+  // No line parts them: a linear judge is wrong on some, whatever its C.
+  FeatureMatrix features(24, 2);
+  std::vector<std::uint32_t> labels;
+  std::vector<std::uint32_t> rows(24);
+  std::iota(rows.begin(), rows.end(), 0U);
+  for (Eigen::Index i = 0; i < 24; ++i) {
+    const float radius = i % 2 == 0 ? 2.0F : 0.5F;
+    features.row(i) << radius * std::cos(static_cast<float>(i)), radius * std::sin(static_cast<float>(i));
+    labels.push_back(static_cast<std::uint32_t>(i % 2));
+  }
+  const auto right = [&](KernelKind kind) {
+    const TrainingSet training(features, {}, fit_kernel(kind, std::vector<std::uint32_t>{2}, features, rows), labels,
+                               rows, 2);
+    const JudgeList judges = training.list(std::vector<Judge>{training.teach({0, 1}, {kind, 200.0, true})});
+    int count = 0;
+    for (const std::uint32_t row : rows) {
+      count += judges.vote({features.row(row).data(), 2}).winner == labels[row] ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_EQ(right(KernelKind::rbf), 24);
+  EXPECT_LT(right(KernelKind::linear), 24);
 }
 
 TEST(JudgeList, NamesWhatItLearntFrom) {
@@ -197,7 +249,9 @@ TEST(JudgeList, NamesWhatItLearntFrom) {
 }
 
 TEST(JudgeSettings, AreRefusedOutOfRange) {
-  const auto error = [](double c) { return test::input_error([&] { JudgeSettings{c, true}.validate(); }); };
+  const auto error = [](double c) {
+    return test::input_error([&] { JudgeSettings{KernelKind::linear, c, true}.validate(); });
+  };
   EXPECT_EQ(error(0.0), "C 0 is out of range (above 0)");
   EXPECT_EQ(error(-1.0), "C -1 is out of range (above 0)");
   EXPECT_EQ(error(std::numeric_limits<double>::infinity()), "C inf is out of range (above 0)");

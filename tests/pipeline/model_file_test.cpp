@@ -54,6 +54,31 @@ std::string bytes_of(const Model& model) {
   return read_file(dir / "m.spincat");
 }
 
+// The same categories, rbf judges that lean on four objects of five features.
+Model rbf_model() {
+  Model model = small_model();
+  model.settings.judge.kernel = KernelKind::rbf;
+  model.judges.kernel = {KernelKind::rbf, {2, 3}, {0.5F, 0.0F}};
+  model.judges.supports.resize(4, 5);
+  model.judges.weights.resize(3, 4);
+  for (Eigen::Index i = 0; i < 20; ++i) {
+    model.judges.supports.data()[i] = 0.1F * static_cast<float>(i);
+  }
+  for (Eigen::Index i = 0; i < 12; ++i) {
+    model.judges.weights.data()[i] = 1.0F - 0.3F * static_cast<float>(i);
+  }
+  return model;
+}
+
+// The same with a codebook of five words of two numbers.
+Model bag_model() {
+  Model model = small_model();
+  model.settings.encoding = "bag-of-features";
+  model.judges.codebook.words.resize(5, 2);
+  model.judges.codebook.words << 0, 1, 2, 3, 4, 5, 6, 7, 8, 9;
+  return model;
+}
+
 const std::string& small_bytes() {
   static const std::string bytes = bytes_of(small_model());
   return bytes;
@@ -202,6 +227,89 @@ TEST(ModelFile, HostileJudgesAreRefused) {
   EXPECT_NE(problem_of("support_vectors", Json::array({1, 2})), "no error");
   EXPECT_NE(problem_of("support_vectors", Json::array({1, -2, 3})), "no error");
   EXPECT_NE(problem_of("support_vectors", Json::array({1, 2, std::int64_t{1} << 32})), "no error");
+}
+
+TEST(ModelFile, RbfJudgesRoundTripExactly) {
+  const Model model = rbf_model();
+  const TempDir dir;
+  write_model(dir / "m.spincat", model);
+  const Model back = read_model(dir / "m.spincat");
+  EXPECT_EQ(back.judges.kernel.kind, KernelKind::rbf);
+  EXPECT_EQ(back.judges.kernel.block_sizes, model.judges.kernel.block_sizes);
+  EXPECT_EQ(back.judges.kernel.scale, model.judges.kernel.scale);
+  EXPECT_TRUE(back.judges.supports == model.judges.supports);
+  EXPECT_TRUE(back.judges.weights == model.judges.weights);
+  EXPECT_EQ(back.feature_length(), 5U);
+  EXPECT_EQ(bytes_of(back), bytes_of(model));
+}
+
+TEST(ModelFile, HostileRbfJudgesAreRefused) {
+  const Json good = unpack_record(bytes_of(rbf_model()), "model", kModelVersion);
+  const auto problem_of = [&](const char* name, const Json& value) {
+    Json content = good;
+    content["judges"][name] = value;
+    return problem_with(pack_record("model", kModelVersion, content));
+  };
+  ASSERT_EQ(problem_of("features", 5), "no error");
+  EXPECT_EQ(problem_of("features", 4), "model: 'blocks' add up to 5, not to 4 features");
+  EXPECT_EQ(problem_of("blocks", Json::array({2, 2})), "model: 'blocks' add up to 4, not to 5 features");
+  EXPECT_EQ(problem_of("blocks", Json::array({5, 0})), "model: 'blocks' has an empty block");
+  for (const Json& wrong :
+       {Json(nullptr), Json(5), Json::array(), Json::array({5}), Json::array({-2, 7}), Json::array({2.5, 2.5}),
+        Json::array({1, 1, 1, 1, 1, 0}), Json::array({std::int64_t{1} << 32, 5})}) {
+    EXPECT_NE(problem_of("blocks", wrong), "no error") << wrong;
+  }
+  EXPECT_EQ(problem_of("scale", floats({1, -1})), "model: 'scale' holds a number below 0");
+  EXPECT_EQ(problem_of("scale", floats({1})), "model: 'scale' does not hold 2 numbers");
+  EXPECT_NE(problem_of("scale", floats({1, std::numeric_limits<float>::quiet_NaN()})), "no error");
+  EXPECT_EQ(problem_of("supports", floats(std::vector<float>(19))), "model: 'supports' is of the wrong size");
+  EXPECT_EQ(problem_of("supports", floats({})), "model: 'supports' is of the wrong size");
+  EXPECT_NE(problem_of("supports", floats(std::vector<float>(25))), "no error");  // more than the weights know
+  EXPECT_NE(problem_of("supports", Json(1)), "no error");
+  EXPECT_EQ(problem_of("weights", floats(std::vector<float>(8))), "model: 'weights' is of the wrong size");
+  EXPECT_NE(problem_of("weights", floats(std::vector<float>(13))), "no error");
+  for (const char* name : {"blocks", "scale", "supports"}) {
+    Json content = good;
+    content["judges"].erase(name);
+    EXPECT_EQ(problem_with(pack_record("model", kModelVersion, content)),
+              "model: '" + std::string(name) + "' is missing");
+  }
+}
+
+TEST(ModelFile, ACodebookRoundTripsExactly) {
+  const Model model = bag_model();
+  const TempDir dir;
+  write_model(dir / "m.spincat", model);
+  const Model back = read_model(dir / "m.spincat");
+  EXPECT_TRUE(back.judges.codebook.words == model.judges.codebook.words);
+  EXPECT_EQ(back.feature_length(), 2U * kLocalFeatures);
+  EXPECT_EQ(bytes_of(back), bytes_of(model));
+}
+
+TEST(ModelFile, AHostileCodebookIsRefused) {
+  const Json good = unpack_record(bytes_of(bag_model()), "model", kModelVersion);
+  const auto problem_of = [&](const std::function<void(Json&)>& change) {
+    Json content = good;
+    change(content);
+    return problem_with(pack_record("model", kModelVersion, content));
+  };
+  ASSERT_EQ(problem_of([](Json&) {}), "no error");
+  for (const Json& wrong : {Json(0), Json(-2), Json(2.5), Json("2"), Json(std::uint64_t{1} << 62), Json(3)}) {
+    EXPECT_NE(problem_of([&](Json& json) { json["judges"]["local_size"] = wrong; }), "no error") << wrong;
+  }
+  for (const std::size_t size : {0, 8, 9, 12}) {
+    EXPECT_NE(problem_of([&](Json& json) { json["judges"]["codebook"] = floats(std::vector<float>(size)); }),
+              "no error");
+  }
+  EXPECT_EQ(problem_of([](Json& json) {
+              json["judges"]["codebook"] = floats(std::vector<float>(10, std::numeric_limits<float>::infinity()));
+            }),
+            "model: 'codebook' holds a number that is not finite");
+  EXPECT_EQ(problem_of([](Json& json) { json["judges"].erase("local_size"); }), "model: 'local_size' is missing");
+  EXPECT_EQ(problem_of([](Json& json) { json["judges"].erase("codebook"); }),
+            "model: a codebook is missing for the encoding bag-of-features");
+  EXPECT_EQ(problem_of([](Json& json) { json["settings"]["encoding"] = "pooled-pyramid"; }),
+            "model: a codebook is not expected for the encoding pooled-pyramid");
 }
 
 TEST(ModelFile, HostileCountsAreRefused) {

@@ -15,6 +15,8 @@
 #include "spincat/io/read_object.h"
 #include "spincat/pipeline/classify.h"
 #include "spincat/pipeline/evaluate.h"
+#include "spincat/pipeline/feature_table.h"
+#include "spincat/pipeline/teach.h"
 #include "spincat/pipeline/train.h"
 #include "support/expect_error.h"
 #include "support/shapes.h"
@@ -324,6 +326,64 @@ TEST(Progress, AnExceptionEndsTheWorkInAnyStage) {
     }
   }
 }
+
+TEST(TeachJudges, TestObjectsDoNotInfluenceTheCodebook) {
+  Settings settings = small_settings();
+  settings.encoding = "bag-of-features";
+  settings.words = 8;
+  FeatureTable table = describe_dataset(shapes(), settings, true, 2, {});
+  std::vector<std::uint32_t> train;
+  for (std::uint32_t object = 0; object < table.objects.size(); ++object) {
+    if (object % 3 != 0) {
+      train.push_back(object);
+    }
+  }
+  const auto teach = [&] {
+    return teach_judges(table, shared_gram(table, settings.judge, 1), train, settings.judge, 2, {});
+  };
+  const JudgeList before = teach();
+  EXPECT_EQ(before.codebook.words.rows(), 8);
+  const std::vector<std::uint32_t> tested = {0, 3, 6, 9, 12, 15, 18, 21};
+  for (const std::uint32_t row : table.rows_of(tested)) {
+    table.features.row(row).setConstant(7.0F);
+  }
+  const JudgeList after = teach();
+  EXPECT_TRUE(after.codebook.words == before.codebook.words);
+  EXPECT_TRUE(after.weights == before.weights);
+  for (const std::uint32_t row : table.rows_of(std::vector<std::uint32_t>{1})) {
+    table.features.row(row).setConstant(7.0F);
+  }
+  EXPECT_FALSE(teach().codebook.words == before.codebook.words);  // a training object does
+}
+
+class Variant : public testing::TestWithParam<std::pair<const char*, KernelKind>> {};
+
+TEST_P(Variant, FindsEasyShapesAndKeepsItsModel) {
+  Settings settings = small_settings();
+  settings.encoding = GetParam().first;
+  settings.words = 16;
+  settings.judge.kernel = GetParam().second;
+  settings.judge.c = default_c(settings.judge.kernel);
+  EXPECT_GE(evaluated(settings, 2).mean_class_rate.mean, 0.6);
+  const Model model = train(shapes(), settings, {false, 1}).model;
+  EXPECT_EQ(model_bytes(train(shapes(), settings, {false, 3}).model), model_bytes(model));
+  const TempDir dir;
+  write_model(dir / "m.spincat", model);
+  const Model back = read_model(dir / "m.spincat");
+  int right = 0;
+  for (const DatasetObject& object : shapes().objects) {
+    const Classification found = classify_file(back, object.file);
+    EXPECT_EQ(found.ballot.weakest_margin, classify_file(model, object.file).ballot.weakest_margin);
+    right += found.ballot.winner == object.category ? 1 : 0;
+  }
+  EXPECT_GE(right, 22);  // of 24
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Variant,
+                         testing::Values(std::pair("pooled-pyramid", KernelKind::rbf),
+                                         std::pair("mean-image", KernelKind::linear),
+                                         std::pair("bag-of-features", KernelKind::linear),
+                                         std::pair("bag-of-features", KernelKind::rbf)));
 
 TEST(Evaluate, FindsEasyShapes) {
   const Evaluation found = evaluated(small_settings(), 2);

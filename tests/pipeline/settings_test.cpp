@@ -31,6 +31,8 @@ Settings unusual() {
   s.spin.support_angle = 77.7;
   s.bin_size_unit = BinSizeUnit::resolution;
   s.encoding = "concatenation";
+  s.words = 99;
+  s.judge.kernel = KernelKind::rbf;
   s.judge.c = 1.0 / 3.0;
   s.judge.class_weights = false;
   s.copies = 2;
@@ -69,6 +71,8 @@ TEST(SettingsJson, RoundTripsEveryField) {
   EXPECT_EQ(back.spin.support_angle, s.spin.support_angle);
   EXPECT_EQ(back.bin_size_unit, s.bin_size_unit);
   EXPECT_EQ(back.encoding, s.encoding);
+  EXPECT_EQ(back.words, s.words);
+  EXPECT_EQ(back.judge.kernel, s.judge.kernel);
   EXPECT_EQ(back.judge.c, s.judge.c);
   EXPECT_EQ(back.judge.class_weights, s.judge.class_weights);
   EXPECT_EQ(back.copies, s.copies);
@@ -116,7 +120,7 @@ TEST(SettingsJson, RoundTripsEveryChoice) {
 
 TEST(SettingsJson, NamesAMissingField) {
   const Json whole = json_of(preset("default"));
-  EXPECT_EQ(whole.size(), 19U);
+  EXPECT_EQ(whole.size(), 21U);
   for (const auto& [field, value] : whole.items()) {
     Json json = whole;
     json.erase(field);
@@ -139,7 +143,7 @@ TEST(SettingsJson, NamesAFieldOfTheWrongType) {
 }
 
 TEST(SettingsJson, DoesNotCutNumbers) {
-  for (const char* field : {"points", "spin_points", "neighbours", "image_width", "copies"}) {
+  for (const char* field : {"points", "spin_points", "neighbours", "image_width", "words", "copies"}) {
     const std::string expected = "setting '" + std::string(field) + "' is not a whole number in range";
     EXPECT_EQ(error_with(field, 8.5), expected);
     EXPECT_EQ(error_with(field, 8.0), expected);
@@ -160,11 +164,13 @@ TEST(SettingsJson, NamesAFieldOutOfRange) {
   EXPECT_EQ(error_with("bin_size", std::numeric_limits<double>::infinity()), "bin size inf is out of range (above 0)");
   EXPECT_EQ(error_with("support_angle", 181), "support angle 181 is out of range (0 to 180 degrees)");
   EXPECT_EQ(error_with("c", std::numeric_limits<double>::quiet_NaN()), "C nan is out of range (above 0)");
+  EXPECT_EQ(error_with("words", 1), "number of words 1 is out of range (2 to 65536)");
   EXPECT_EQ(error_with("copies", 101), "number of copies 101 is out of range (0 to 100)");
   EXPECT_EQ(error_with("stretch", 2.5), "stretch 2.5 is out of range (0 to 2)");
   EXPECT_EQ(error_with("surface", "skin"), "surface 'skin' is not known (one of vertices, samples, external)");
   EXPECT_EQ(error_with("bin_size_unit", ""), "bin_size_unit '' is not known (one of absolute, resolution, relative)");
-  EXPECT_EQ(error_with("encoding", "x"), "encoding 'x' is not known (one of pooled-pyramid, concatenation)");
+  EXPECT_EQ(error_with("encoding", "x"),
+            "encoding 'x' is not known (one of pooled-pyramid, concatenation, mean-image, bag-of-features)");
   EXPECT_NE(error_with("image_width", 20), "no error");  // the pyramid needs a width divisible by 8
 }
 

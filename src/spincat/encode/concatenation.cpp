@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include "spincat/encode/encoding.h"
@@ -20,7 +21,7 @@ class ConcatenatedSums final : public Encoding::ObjectSums {
   FeatureVector finish(std::span<const double> sums) const override {
     std::vector<double> values(sums.begin(), sums.end());
     scale_to_length(values, 1.0);
-    return {{values.begin(), values.end()}, "concatenation"};
+    return {{values.begin(), values.end()}, {static_cast<std::uint32_t>(values.size())}, "concatenation"};
   }
 
  private:

@@ -28,6 +28,9 @@ class Encoding {
   // Throws InputError when this encoding cannot work on such images.
   virtual void check(const SpinImageParams& params) const = 0;
 
+  // Whether its feature vectors are local features, which a codebook has to count before judges see them.
+  virtual bool gives_local_features() const { return false; }
+
   // Called once for an object, before its blocks: what has to be known of all its points. The object must outlive the
   // result.
   class ObjectSums;
@@ -52,14 +55,22 @@ class Encoding::ObjectSums {
 };
 
 // The paper's: the rows of each image one after the other, the images one after the other, in the order of the spin
-// points: M W W numbers, scaled to length 1 together.
+// points: M W W numbers, scaled to length 1 together; one block.
 std::unique_ptr<Encoding> make_concatenation();
 
 // Our default: each image is reduced to a pyramid of three smaller ones (the inner quarter at full resolution, the
 // inner half and the whole, coarser), square roots are taken, and the mean and the standard deviation of every bin over
-// the spin points of each of four bands is one feature; docs/encoding.md. Needs an image width divisible by 8 in the
-// johnson convention.
+// the spin points of each of four bands is one feature, each image a block; docs/encoding.md. Needs an image width
+// divisible by 8 in the johnson convention.
 std::unique_ptr<Encoding> make_pooled_pyramid();
+
+// The mean of all images, scaled to length 1: the simplest thing that forgets the order of the spin points. One block.
+std::unique_ptr<Encoding> make_mean_image();
+
+// The images of kLocalFeatures spin points one by one, each reduced to at most 10 x 10 cells a channel, as square roots
+// of shares of the surface points: local features, to be counted by a codebook that was learned from training objects
+// (codebook.h) before judges see them.
+std::unique_ptr<Encoding> make_bag_of_features();
 
 // The encoding called `name`. Throws InputError that lists the names when there is none.
 std::unique_ptr<Encoding> make_encoding(std::string_view name);

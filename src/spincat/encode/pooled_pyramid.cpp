@@ -100,8 +100,8 @@ struct Levels {
   std::vector<float> line;
 };
 
-// Sums, for each level, band, channel and cell, of the square root of the cell and of the square of that root: from these
-// the mean and the deviation.
+// Sums, for each level, band, channel and cell, of the square root of the cell and of the square of that root: from
+// these the mean and the deviation.
 class PyramidSums final : public Encoding::ObjectSums {
  public:
   PyramidSums(const OrientedPoints& surface, const OrientedPoints& spin_points, const SpinImageParams& params)
@@ -146,7 +146,8 @@ class PyramidSums final : public Encoding::ObjectSums {
       }
       scale_to_length(std::span(values).subspan(level * level_size(), level_size()), 1.0 / std::sqrt(kLevels));
     }
-    return {{values.begin(), values.end()}, "pooled-pyramid"};
+    const std::vector<std::uint32_t> blocks(kLevels, static_cast<std::uint32_t>(level_size()));
+    return {{values.begin(), values.end()}, blocks, "pooled-pyramid"};
   }
 
  private:

@@ -12,7 +12,7 @@ namespace {
 constexpr Eigen::Index kTile = 64;
 constexpr Eigen::Index kDepth = 128;
 
-void fill_tile(const FeatureMatrix& features, Eigen::Index i, Eigen::Index j, Eigen::MatrixXf& gram) {
+void fill_tile(const Eigen::Ref<const FeatureMatrix>& features, Eigen::Index i, Eigen::Index j, Eigen::MatrixXf& gram) {
   const Eigen::Index rows = std::min(kTile, features.rows() - i);
   const Eigen::Index columns = std::min(kTile, features.rows() - j);
   Eigen::MatrixXf tile = Eigen::MatrixXf::Zero(rows, columns);
@@ -29,7 +29,7 @@ void fill_tile(const FeatureMatrix& features, Eigen::Index i, Eigen::Index j, Ei
 
 }  // namespace
 
-Eigen::MatrixXf gram_matrix(const FeatureMatrix& features, int threads) {
+Eigen::MatrixXf gram_matrix(const Eigen::Ref<const FeatureMatrix>& features, int threads) {
   std::vector<std::pair<Eigen::Index, Eigen::Index>> tiles;
   for (Eigen::Index i = 0; i < features.rows(); i += kTile) {
     for (Eigen::Index j = 0; j <= i; j += kTile) {

@@ -14,6 +14,6 @@ using FeatureMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen
 // K(i, j) = x_i . x_j, symmetric, in single precision. Computed once for all judges: retraining on any subset of the
 // rows (each pair of categories, each split) only picks entries. The same bytes for any number of threads: tiles of a
 // fixed size, each summed in one order.
-Eigen::MatrixXf gram_matrix(const FeatureMatrix& features, int threads);
+Eigen::MatrixXf gram_matrix(const Eigen::Ref<const FeatureMatrix>& features, int threads);
 
 }  // namespace spincat

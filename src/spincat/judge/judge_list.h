@@ -7,8 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "spincat/encode/codebook.h"
 #include "spincat/judge/ballot.h"
 #include "spincat/judge/gram.h"
+#include "spincat/judge/kernel.h"
 #include "spincat/judge/settings.h"
 
 namespace spincat {
@@ -22,21 +24,26 @@ struct CategoryPair {
 // All L = n (n - 1) / 2 pairs in the order of the judges: (0,1), (0,2), ..., (1,2), ...
 std::vector<CategoryPair> all_pairs(std::uint32_t categories);
 
-// A linear SVM that tells two categories apart: weights . x + bias > 0 speaks for the first.
+// An SVM that tells two categories apart: a margin above 0 speaks for the first.
 struct Judge {
-  Eigen::RowVectorXf weights;  // D
+  Eigen::RowVectorXf weights;  // D, linear kernel: margin = weights . x + bias
   float bias = 0.0F;
   std::uint32_t support_vectors = 0;  // how many training objects it leans on
+  // Other kernels: margin = sum of coefficients[s] K(row rows[s], x) + bias. Empty for the linear one.
+  std::vector<std::uint32_t> rows;
+  std::vector<float> coefficients;
 };
+
+struct JudgeList;
 
 // What judges are taught on.
 class TrainingSet {
  public:
-  // Those rows of `features` that `rows` lists; `labels` has the category of each row of features. `shared_gram` is
-  // gram_matrix(features), or empty: then every pair computes its own part, which takes longer but no memory beyond a
-  // pair's (and may differ from the shared one in the last bit). What is passed by reference must outlive this object.
-  TrainingSet(const FeatureMatrix& features, const Eigen::MatrixXf& shared_gram, std::span<const std::uint32_t> labels,
-              std::span<const std::uint32_t> rows, std::uint32_t categories);
+  // Those rows of `features` that `rows` lists; `labels` has the category of each row of features. `kernel` is fitted
+  // to these rows, and `shared_gram` is that of all features for its kind, or empty: then every pair computes its own
+  // part. What is passed by reference must outlive this object.
+  TrainingSet(const FeatureMatrix& features, const SharedGram& shared_gram, Kernel kernel,
+              std::span<const std::uint32_t> labels, std::span<const std::uint32_t> rows, std::uint32_t categories);
 
   std::uint32_t categories() const { return static_cast<std::uint32_t>(rows_of_.size()); }
 
@@ -44,30 +51,40 @@ class TrainingSet {
   // Deterministic. Precondition: both categories have a row.
   Judge teach(CategoryPair pair, const JudgeSettings& settings) const;
 
- private:
-  Eigen::MatrixXf gram_of(std::span<const std::uint32_t> rows) const;
+  // All judges in the order of all_pairs, put together. Support vectors that several judges share are kept once.
+  JudgeList list(std::span<const Judge> judges) const;
 
+ private:
   const FeatureMatrix& features_;
-  const Eigen::MatrixXf& shared_gram_;
+  const SharedGram& shared_gram_;
+  Kernel kernel_;
   std::vector<std::vector<std::uint32_t>> rows_of_;  // of each category
   std::size_t objects_ = 0;
 };
 
-// All judges, folded into one matrix: voting is one matrix-vector product.
+// All judges, folded into one matrix: voting is one matrix-vector product, after one row of the kernel where that is
+// not linear.
 //
-//   margin of judge l on object x:   weights.row(l) . x + bias(l)
+//   linear:  margin of judge l on object x:   weights.row(l) . x + bias(l)
+//   rbf:     margin of judge l on object x:   weights.row(l) . kernel.row(supports, x) + bias(l)
 struct JudgeList {
   std::uint32_t categories = 0;
-  FeatureMatrix weights;                       // L x D
+  FeatureMatrix weights;                       // L x D (linear) or L x S: the support vectors' coefficients
   Eigen::VectorXf bias;                        // L
-  std::vector<std::uint32_t> support_vectors;  // L
-
-  // From the judges in the order of all_pairs.
-  static JudgeList fold(std::uint32_t categories, std::span<const Judge> judges);
+  std::vector<std::uint32_t> support_vectors;  // L: how many each judge leans on
+  Kernel kernel;
+  Codebook codebook;       // where the encoding gives local features: x is then what it counts among them
+  FeatureMatrix supports;  // S x D: the support vectors of all judges, each once; none for the linear kernel
 
   std::size_t size() const { return support_vectors.size(); }
 
-  // Every judge's word on one feature vector (D numbers). Deterministic. Precondition: D matches.
+  // D: how many features the kernel sees of an object.
+  std::size_t seen_length() const;
+
+  // How many features an object needs: D, or local features for the codebook.
+  std::size_t feature_length() const;
+
+  // Every judge's word on one feature vector (feature_length() numbers). Deterministic.
   Ballot vote(std::span<const float> features) const;
 };
 

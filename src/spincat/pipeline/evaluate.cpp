@@ -68,7 +68,7 @@ std::vector<Split> splits_of(const EvaluationData& data, const Settings& setting
 std::vector<Trial> run_trials(const EvaluationData& data, const std::vector<Split>& splits, const Settings& settings,
                               const EvaluateOptions& options, const Progress& progress) {
   const bool confidence = options.measure_confidence || !options.strangers.empty();
-  const Eigen::MatrixXf gram = shared_gram(data.table, options.threads);
+  const SharedGram gram = shared_gram(data.table, settings.judge, options.threads);
   std::vector<Trial> trials(splits.size());
   const int threads_each = splits.size() == 1 ? options.threads : 1;
   std::mutex mutex;

@@ -95,6 +95,8 @@ FeatureTable collect(const Dataset& dataset, std::vector<Described> described, c
   FeatureTable table;
   table.categories = dataset.categories;
   table.skipped = dataset.skipped;
+  table.words = static_cast<std::uint32_t>(settings.words);
+  table.seed = settings.seed;
   table.rows_per_object = static_cast<std::uint32_t>(settings.copies + 1);
   Eigen::Index length = 0;
   for (std::size_t i = 0; i < described.size(); ++i) {
@@ -104,6 +106,8 @@ FeatureTable collect(const Dataset& dataset, std::vector<Described> described, c
     } else {
       table.objects.push_back(dataset.objects[i]);
       table.encoding = described[i].features[0].encoding;
+      table.local_size = described[i].features[0].local_size;
+      table.blocks = described[i].features[0].blocks;
       length = static_cast<Eigen::Index>(described[i].features[0].values.size());
     }
   }

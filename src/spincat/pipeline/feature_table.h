@@ -21,6 +21,10 @@ struct FeatureTable {
   std::vector<std::string> categories;  // n, all of the data set
   std::vector<SkippedObject> skipped;   // the data set's, and those that could not be read, sorted by file
   FeatureMatrix features;               // N rows_per_object x D
+  std::vector<std::uint32_t> blocks;    // of columns that belong together; adds up to D
+  std::uint32_t local_size = 0;         // > 0: columns are local features of so many numbers, to be counted by words
+  std::uint32_t words = 0;              // of the codebook that is learned for them
+  std::uint64_t seed = 1;               // of that learning
   std::uint32_t rows_per_object = 1;
   std::string encoding;
   StageSeconds seconds;  // added up over threads

@@ -27,7 +27,7 @@ struct Model {
   std::vector<std::uint32_t> object_counts;  // n: training objects of each category, copies not counted
   std::string made_by;                       // "spincat 0.1.0"
 
-  std::size_t feature_length() const { return static_cast<std::size_t>(judges.weights.cols()); }
+  std::size_t feature_length() const { return judges.feature_length(); }
 };
 
 // Writes the model file: self-describing, with a version and a checksum; beside the target first, then renamed. The

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "spincat/encode/encoding.h"
 #include "spincat/error.h"
 #include "spincat/io/file.h"
 #include "spincat/io/magic.h"
@@ -90,29 +91,102 @@ std::vector<std::uint32_t> counts(const Json& json, const char* name, std::size_
   return result;
 }
 
-Json judges_to_json(const JudgeList& judges) {
-  return {{"features", judges.weights.cols()},
-          {"weights", pack_floats({judges.weights.data(), static_cast<std::size_t>(judges.weights.size())})},
-          {"bias", pack_floats({judges.bias.data(), static_cast<std::size_t>(judges.bias.size())})},
-          {"support_vectors", judges.support_vectors}};
+template <class Matrix>
+Json pack_matrix(const Matrix& matrix) {
+  return pack_floats({matrix.data(), static_cast<std::size_t>(matrix.size())});
 }
 
-JudgeList judges_from_json(const Json& json, std::size_t categories) {
+Json judges_to_json(const JudgeList& judges) {
+  Json json = {{"features", judges.seen_length()},
+               {"weights", pack_matrix(judges.weights)},
+               {"bias", pack_matrix(judges.bias)},
+               {"support_vectors", judges.support_vectors}};
+  if (judges.kernel.kind != KernelKind::linear) {
+    json["blocks"] = judges.kernel.block_sizes;
+    json["scale"] = pack_floats(judges.kernel.scale);
+    json["supports"] = pack_matrix(judges.supports);
+  }
+  if (!judges.codebook.empty()) {
+    json["local_size"] = judges.codebook.words.cols();
+    json["codebook"] = pack_matrix(judges.codebook.words);
+  }
+  return json;
+}
+
+// A matrix of `columns` columns and as many rows as the blob has, all numbers finite. The blob's size is checked before
+// any memory is taken for it.
+FeatureMatrix unpack_matrix(const Json& json, const char* name, std::size_t columns) {
+  const Json& blob = member(json, name);
+  const std::size_t numbers = blob.is_binary() ? blob.get_binary().size() / sizeof(float) : 0;
+  if (numbers == 0 || numbers % columns != 0) {
+    throw InputError(fmt::format("model: '{}' is of the wrong size", name));
+  }
+  FeatureMatrix matrix(static_cast<Eigen::Index>(numbers / columns), static_cast<Eigen::Index>(columns));
+  unpack_floats(json, name, {matrix.data(), numbers});
+  return matrix;
+}
+
+// What judges with another kernel than the linear one need besides.
+void kernel_from_json(const Json& json, KernelKind kind, std::size_t features, JudgeList& judges) {
+  judges.kernel.kind = kind;
+  const Json& list = member(json, "blocks");
+  if (!list.is_array() || list.empty() || list.size() > features) {
+    throw InputError("model: 'blocks' is not a list of counts");
+  }
+  judges.kernel.block_sizes = counts(json, "blocks", list.size());
+  std::size_t sum = 0;
+  for (const std::uint32_t size : judges.kernel.block_sizes) {
+    sum += size;
+    if (size == 0) {
+      throw InputError("model: 'blocks' has an empty block");
+    }
+  }
+  if (sum != features) {
+    throw InputError(fmt::format("model: 'blocks' add up to {}, not to {} features", sum, features));
+  }
+  judges.kernel.scale.resize(list.size());
+  unpack_floats(json, "scale", judges.kernel.scale);
+  for (const float scale : judges.kernel.scale) {
+    if (scale < 0.0F) {
+      throw InputError("model: 'scale' holds a number below 0");
+    }
+  }
+  judges.supports = unpack_matrix(json, "supports", features);
+}
+
+void codebook_from_json(const Json& json, std::size_t features, Codebook& codebook) {
+  const std::size_t size = whole_number<std::size_t>(member(json, "local_size")).value_or(0);
+  if (size == 0 || size > kMostFeatures / kLocalFeatures) {
+    throw InputError(
+        fmt::format("model: 'local_size' is not a whole number from 1 to {}", kMostFeatures / kLocalFeatures));
+  }
+  codebook.words = unpack_matrix(json, "codebook", size);
+  if (static_cast<std::size_t>(codebook.words.rows()) != features) {
+    throw InputError("model: 'codebook' is of the wrong size");
+  }
+}
+
+JudgeList judges_from_json(const Json& json, std::size_t categories, KernelKind kind) {
   const std::size_t count = categories * (categories - 1) / 2;
   const std::size_t features = whole_number<std::size_t>(member(json, "features")).value_or(0);
   if (features == 0 || features > kMostFeatures) {
     throw InputError(fmt::format("model: 'features' is not a whole number from 1 to {}", kMostFeatures));
   }
-  // The blob's size is checked against both counts before any memory is taken for them.
-  const Json& weights = member(json, "weights");
-  if (!weights.is_binary() || weights.get_binary().size() / sizeof(float) / count != features) {
-    throw InputError("model: 'weights' is of the wrong size");
-  }
   JudgeList judges;
   judges.categories = static_cast<std::uint32_t>(categories);
-  judges.weights.resize(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(features));
+  std::size_t columns = features;
+  if (kind != KernelKind::linear) {
+    kernel_from_json(json, kind, features, judges);
+    columns = static_cast<std::size_t>(judges.supports.rows());
+  }
+  judges.weights = unpack_matrix(json, "weights", columns);
+  if (static_cast<std::size_t>(judges.weights.rows()) != count) {
+    throw InputError("model: 'weights' is of the wrong size");
+  }
+  if (json.contains("codebook")) {
+    codebook_from_json(json, features, judges.codebook);
+  }
   judges.bias.resize(static_cast<Eigen::Index>(count));
-  unpack_floats(json, "weights", {judges.weights.data(), count * features});
   unpack_floats(json, "bias", {judges.bias.data(), count});
   judges.support_vectors = counts(json, "support_vectors", count);
   return judges;
@@ -170,7 +244,11 @@ Model model_from_json(const Json& json) {
   if (n < 2 || n > kMostCategories || std::set(model.categories.begin(), model.categories.end()).size() != n) {
     throw InputError("model: 'categories' are not two or more different names");
   }
-  model.judges = judges_from_json(member(json, "judges"), n);
+  model.judges = judges_from_json(member(json, "judges"), n, model.settings.judge.kernel);
+  if (make_encoding(model.settings.encoding)->gives_local_features() == model.judges.codebook.empty()) {
+    throw InputError(fmt::format("model: a codebook is {} for the encoding {}",
+                                 model.judges.codebook.empty() ? "missing" : "not expected", model.settings.encoding));
+  }
   model.calibration.slope = value<double>(member(json, "calibration"), "slope");
   model.calibration.offset = value<double>(member(json, "calibration"), "offset");
   model.calibration.familiarity_slope = value<double>(member(json, "calibration"), "familiarity_slope");

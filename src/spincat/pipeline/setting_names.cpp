@@ -18,6 +18,7 @@ constexpr ChoiceName<Binning> kBinnings[] = {{Binning::bilinear, "bilinear"}, {B
 constexpr ChoiceName<AngleTest> kAngleTests[] = {{AngleTest::cutoff, "cutoff"}, {AngleTest::soft, "soft"}};
 constexpr ChoiceName<BinSizeUnit> kUnits[] = {
     {BinSizeUnit::absolute, "absolute"}, {BinSizeUnit::resolution, "resolution"}, {BinSizeUnit::relative, "relative"}};
+constexpr ChoiceName<KernelKind> kKernels[] = {{KernelKind::linear, "linear"}, {KernelKind::rbf, "rbf"}};
 
 }  // namespace
 
@@ -44,6 +45,10 @@ std::span<const ChoiceName<AngleTest>> choices() {
 template <>
 std::span<const ChoiceName<BinSizeUnit>> choices() {
   return kUnits;
+}
+template <>
+std::span<const ChoiceName<KernelKind>> choices() {
+  return kKernels;
 }
 
 void throw_unknown_choice(std::string_view field, std::string_view name, std::span<const std::string_view> known) {

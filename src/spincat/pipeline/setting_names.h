@@ -30,6 +30,8 @@ template <>
 std::span<const ChoiceName<AngleTest>> choices();
 template <>
 std::span<const ChoiceName<BinSizeUnit>> choices();
+template <>
+std::span<const ChoiceName<KernelKind>> choices();
 
 // The name of a choice.
 template <class Choice>

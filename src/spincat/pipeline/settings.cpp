@@ -41,6 +41,9 @@ void Settings::validate() const {
   spin.validate();
   judge.validate();
   make_encoding(encoding)->check(spin);
+  if (words < 2 || words > 65'536) {
+    throw InputError(fmt::format("number of words {} is out of range (2 to 65536)", words));
+  }
   if (copies < 0 || copies > 100) {
     throw InputError(fmt::format("number of copies {} is out of range (0 to 100)", copies));
   }

@@ -27,6 +27,7 @@ struct Settings {
   SpinImageParams spin;  // spin.bin_size in the unit below
   BinSizeUnit bin_size_unit = BinSizeUnit::relative;
   std::string encoding = "pooled-pyramid";
+  int words = 256;  // of the codebook that the bag-of-features encoding learns, 2 to 65,536
   JudgeSettings judge;
   int copies = 6;          // stretched copies of each training object, 0 to 100
   double stretch = 0.2;    // each axis of a copy is stretched by exp(U(-stretch, stretch)), 0 to 2

@@ -64,6 +64,8 @@ nlohmann::ordered_json settings_to_json(const Settings& s) {
           {"binning", name_of(s.spin.binning)},
           {"angle_test", name_of(s.spin.angle_test)},
           {"encoding", s.encoding},
+          {"words", s.words},
+          {"kernel", name_of(s.judge.kernel)},
           {"c", s.judge.c},
           {"class_weights", s.judge.class_weights},
           {"copies", s.copies},
@@ -87,6 +89,8 @@ Settings settings_from_json(const Json& json) {
   s.spin.binning = choice<Binning>(json, "binning");
   s.spin.angle_test = choice<AngleTest>(json, "angle_test");
   s.encoding = field<std::string>(json, "encoding");
+  s.words = whole<int>(json, "words");
+  s.judge.kernel = choice<KernelKind>(json, "kernel");
   s.judge.c = field<double>(json, "c");
   s.judge.class_weights = field<bool>(json, "class_weights");
   s.copies = whole<int>(json, "copies");

@@ -13,8 +13,9 @@
 namespace spincat {
 namespace {
 
-constexpr Eigen::Index kMostSharedRows = 16'384;
+constexpr Eigen::Index kMostSharedProducts = 16'384 * 16'384;
 constexpr std::uint64_t kCalibrationPurpose = 100;  // of derive_seed
+constexpr std::uint64_t kCodebookPurpose = 102;
 
 // Objects of the split, as indices into the table instead of into `objects`.
 std::vector<std::uint32_t> picked(std::span<const std::uint32_t> objects, std::span<const std::uint32_t> indices) {
@@ -26,21 +27,46 @@ std::vector<std::uint32_t> picked(std::span<const std::uint32_t> objects, std::s
   return result;
 }
 
-}  // namespace
-
-Eigen::MatrixXf shared_gram(const FeatureTable& table, int threads) {
-  if (table.features.rows() > kMostSharedRows) {
-    return {};
-  }
-  return gram_matrix(table.features, threads);
+bool may_be_shared(Eigen::Index rows, Eigen::Index matrices) {
+  return rows * rows <= kMostSharedProducts / matrices;
 }
 
-JudgeList teach_judges(const FeatureTable& table, const Eigen::MatrixXf& gram, std::span<const std::uint32_t> objects,
-                       const JudgeSettings& settings, int threads, const Progress& progress) {
+// Local features to learn a codebook from: the first ones of each row, as many from each, within a bound.
+FeatureMatrix codebook_samples(const FeatureTable& table, std::span<const std::uint32_t> rows) {
+  constexpr std::size_t kMostSamples = 16'384;
+  const Eigen::Index size = table.local_size;
+  const Eigen::Index each =
+      std::clamp<Eigen::Index>(static_cast<Eigen::Index>(kMostSamples / rows.size()), 1, table.features.cols() / size);
+  FeatureMatrix samples(static_cast<Eigen::Index>(rows.size()) * each, size);
+  Eigen::Index next = 0;
+  for (const std::uint32_t row : rows) {
+    for (Eigen::Index i = 0; i < each; ++i) {
+      samples.row(next++) = table.features.row(row).segment(i * size, size);
+    }
+  }
+  return samples;
+}
+
+// What the codebook counts in the given rows; the other rows stay zero and are not looked at.
+FeatureMatrix counted_rows(const FeatureTable& table, const Codebook& codebook, std::span<const std::uint32_t> rows,
+                           int threads) {
+  FeatureMatrix counted = FeatureMatrix::Zero(table.features.rows(), codebook.words.rows());
+  for_each_index(rows.size(), threads, [&](std::size_t i) {
+    const auto row = static_cast<Eigen::Index>(rows[i]);
+    const std::span<const float> local(table.features.row(row).data(), static_cast<std::size_t>(table.features.cols()));
+    std::ranges::copy(codebook.count(local), counted.row(row).data());
+  });
+  return counted;
+}
+
+// Teaches all judges on the given rows of `features`, which are the table's or were made from them.
+JudgeList teach_all(const FeatureMatrix& features, std::span<const std::uint32_t> blocks, const SharedGram& gram,
+                    const FeatureTable& table, std::span<const std::uint32_t> rows, const JudgeSettings& settings,
+                    int threads, const Progress& progress) {
   const auto categories = static_cast<std::uint32_t>(table.categories.size());
   const std::vector<std::uint32_t> labels = table.row_labels();
-  const std::vector<std::uint32_t> rows = table.rows_of(objects);
-  const TrainingSet training(table.features, gram, labels, rows, categories);
+  const TrainingSet training(features, gram, fit_kernel(settings.kernel, blocks, features, rows), labels, rows,
+                             categories);
   const std::vector<CategoryPair> pairs = all_pairs(categories);
   std::vector<Judge> judges(pairs.size());
   std::mutex mutex;
@@ -53,10 +79,42 @@ JudgeList teach_judges(const FeatureTable& table, const Eigen::MatrixXf& gram, s
       progress("teaching judges", done, pairs.size());
     }
   });
-  return JudgeList::fold(categories, judges);
+  return training.list(judges);
+}
+
+}  // namespace
+
+SharedGram shared_gram(const FeatureTable& table, const JudgeSettings& settings, int threads) {
+  const auto matrices = static_cast<Eigen::Index>(settings.kernel == KernelKind::linear ? 1 : table.blocks.size());
+  const Eigen::Index rows = table.features.rows();
+  if (table.local_size > 0 || !may_be_shared(rows, matrices)) {
+    return {};
+  }
+  return make_shared_gram(settings.kernel, table.blocks, table.features, threads);
+}
+
+JudgeList teach_judges(const FeatureTable& table, const SharedGram& gram, std::span<const std::uint32_t> objects,
+                       const JudgeSettings& settings, int threads, const Progress& progress) {
+  const std::vector<std::uint32_t> rows = table.rows_of(objects);
+  if (table.local_size == 0) {
+    return teach_all(table.features, table.blocks, gram, table, rows, settings, threads, progress);
+  }
+  const std::uint64_t seed = derive_seed(table.seed, kCodebookPurpose);
+  Codebook codebook = learn_codebook(codebook_samples(table, rows), table.words, seed, threads);
+  const FeatureMatrix counted = counted_rows(table, codebook, rows, threads);
+  const std::vector<std::uint32_t> blocks = {static_cast<std::uint32_t>(counted.cols())};
+  // No shared products: each training has a codebook, and so features, of its own.
+  const SharedGram own =
+      may_be_shared(counted.rows(), 1) ? make_shared_gram(settings.kernel, blocks, counted, threads) : SharedGram{};
+  JudgeList judges = teach_all(counted, blocks, own, table, rows, settings, threads, progress);
+  judges.codebook = std::move(codebook);
+  return judges;
 }
 
 Familiarity familiarity_of(const FeatureTable& table, std::span<const std::uint32_t> objects) {
+  if (table.local_size > 0) {
+    return {};  // local features are compared by the words of a codebook alone
+  }
   FeatureMatrix features(static_cast<Eigen::Index>(objects.size()), table.features.cols());
   std::vector<std::uint32_t> labels;
   for (const std::uint32_t object : objects) {
@@ -67,7 +125,7 @@ Familiarity familiarity_of(const FeatureTable& table, std::span<const std::uint3
   return make_familiarity(std::move(features), std::move(labels), static_cast<std::uint32_t>(table.categories.size()));
 }
 
-Calibration calibrate(const FeatureTable& table, const Eigen::MatrixXf& gram, std::span<const std::uint32_t> objects,
+Calibration calibrate(const FeatureTable& table, const SharedGram& gram, std::span<const std::uint32_t> objects,
                       const JudgeSettings& settings, std::uint64_t seed, int threads, const Progress& progress) {
   constexpr int kFolds = 5;
   if (objects.size() < static_cast<std::size_t>(kFolds)) {

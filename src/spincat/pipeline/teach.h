@@ -13,13 +13,15 @@
 
 namespace spincat {
 
-// The Gram matrix of the whole table, which all judges then share; empty when it would be too large to keep (more than
-// 16,384 rows, a gigabyte): judges then compute their own parts.
-Eigen::MatrixXf shared_gram(const FeatureTable& table, int threads);
+// The inner products of the whole table, which all judges then share; empty when they would be too large to keep (above
+// a gigabyte: 16,384 rows with one matrix), or when the table holds local features: judges then compute their own
+// parts.
+SharedGram shared_gram(const FeatureTable& table, const JudgeSettings& settings, int threads);
 
-// Teaches the judge of every pair of categories on the given objects and their copies. The result does not depend on
+// Teaches the judge of every pair of categories on the given objects and their copies. Where the table holds local
+// features, their codebook is learned first, from these objects alone. The result does not depend on
 // `threads`. Precondition: every category has an object among them.
-JudgeList teach_judges(const FeatureTable& table, const Eigen::MatrixXf& gram, std::span<const std::uint32_t> objects,
+JudgeList teach_judges(const FeatureTable& table, const SharedGram& gram, std::span<const std::uint32_t> objects,
                        const JudgeSettings& settings, int threads, const Progress& progress);
 
 // The given objects as familiarity sees them: their features, without copies. Empty where the table has none to compare
@@ -29,7 +31,7 @@ Familiarity familiarity_of(const FeatureTable& table, std::span<const std::uint3
 // Calibrates the confidence by five-fold cross-validation on the given objects alone: each is judged by judges that
 // were taught on the others, and once more as a stranger, without the judges that know its category. Categories with a
 // single object are always taught on and never judged.
-Calibration calibrate(const FeatureTable& table, const Eigen::MatrixXf& gram, std::span<const std::uint32_t> objects,
+Calibration calibrate(const FeatureTable& table, const SharedGram& gram, std::span<const std::uint32_t> objects,
                       const JudgeSettings& settings, std::uint64_t seed, int threads, const Progress& progress);
 
 }  // namespace spincat

@@ -17,7 +17,7 @@ TrainResult train(const Dataset& dataset, const Settings& settings, const TrainO
 
   // Teach a judge for every pair of categories, and find out how far their votes can be trusted.
   Stopwatch watch;
-  const Eigen::MatrixXf gram = shared_gram(table, options.threads);
+  const SharedGram gram = shared_gram(table, settings.judge, options.threads);
   TrainResult result;
   Model& model = result.model;
   model.judges = teach_judges(table, gram, objects, settings.judge, options.threads, progress);

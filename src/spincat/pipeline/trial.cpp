@@ -4,7 +4,7 @@
 
 namespace spincat {
 
-Trial run_trial(const EvaluationData& data, const Eigen::MatrixXf& gram, const Split& split, const Settings& settings,
+Trial run_trial(const EvaluationData& data, const SharedGram& gram, const Split& split, const Settings& settings,
                 bool measure_confidence, int threads) {
   const FeatureTable& table = data.table;
   const std::size_t n = table.categories.size();

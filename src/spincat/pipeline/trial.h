@@ -19,7 +19,7 @@ struct Trial {
 
 // Teaches the judges on the objects `split.train` of the table and lets them vote on the tested objects `split.test`.
 // Deterministic.
-Trial run_trial(const EvaluationData& data, const Eigen::MatrixXf& gram, const Split& split, const Settings& settings,
+Trial run_trial(const EvaluationData& data, const SharedGram& gram, const Split& split, const Settings& settings,
                 bool measure_confidence, int threads);
 
 }  // namespace spincat

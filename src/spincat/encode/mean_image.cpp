@@ -1,0 +1,52 @@
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "spincat/encode/encoding.h"
+#include "spincat/encode/unit_length.h"
+
+namespace spincat {
+namespace {
+
+class MeanImageSums final : public Encoding::ObjectSums {
+ public:
+  explicit MeanImageSums(std::size_t size) : size_(size) {}
+
+  std::size_t size() const override { return size_; }
+
+  void accumulate(const SpinImageBlock& block, std::span<double> sums) const override {
+    for (std::size_t k = 0; k < block.images.count(); ++k) {
+      std::ranges::transform(block.images.image(k), sums, sums.begin(),
+                             [](float bin, double sum) { return sum + static_cast<double>(bin); });
+    }
+  }
+
+  FeatureVector finish(std::span<const double> sums) const override {
+    std::vector<double> values(sums.begin(), sums.end());
+    scale_to_length(values, 1.0);  // a mean, then: the number of images cancels
+    return {{values.begin(), values.end()}, {static_cast<std::uint32_t>(size_)}, "mean-image"};
+  }
+
+ private:
+  std::size_t size_;
+};
+
+class MeanImage final : public Encoding {
+ public:
+  std::string_view name() const override { return "mean-image"; }
+
+  void check(const SpinImageParams&) const override {}  // any image will do
+
+  std::unique_ptr<ObjectSums> begin(const OrientedPoints&, const OrientedPoints&,
+                                    const SpinImageParams& params) const override {
+    return std::make_unique<MeanImageSums>(params.shape().size());
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Encoding> make_mean_image() {
+  return std::make_unique<MeanImage>();
+}
+
+}  // namespace spincat

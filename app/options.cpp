@@ -108,6 +108,17 @@ void SettingsArguments::add_to(CLI::App& command) {
   command.add_option("--encoding", encoding, fmt::format("One of {}", fmt::join(encoding_names(), ", ")))
       ->group(group)
       ->type_name("NAME");
+  command
+      .add_option("--for", taught_for,
+                  "What is to be named later: meshes, or any: point clouds, too (takes twice the time to learn)")
+      ->group(group)
+      ->type_name("KIND");
+  command.add_option("--up", up, "The axis that points up in all objects: x, y, z or none (default)")
+      ->group(group)
+      ->type_name("AXIS");
+  command.add_option("--draws", draws, "Draws of points that a feature vector is the mean of")
+      ->group(group)
+      ->type_name("N");
   command.add_option("--words", words, "Words of the codebook that bag-of-features learns")
       ->group(group)
       ->type_name("N");
@@ -131,7 +142,18 @@ Settings SettingsArguments::applied_to(Settings s) const {
   override(s.spin.image_width, image_width);
   override(s.encoding, encoding);
   override(s.words, words);
+  override(s.draws, draws);
   override(s.copies, copies);
+  if (encoding && make_encoding(*encoding)->gives_local_features()) {  // which cannot be joined
+    s.plain_samples = false;
+    s.draws = draws.value_or(1);
+  }
+  if (up) {
+    s.up = choice_of<UpAxis>("--up", *up);
+  }
+  if (taught_for) {
+    s.taught_for = choice_of<TaughtFor>("--for", *taught_for);
+  }
   if (kernel) {
     s.judge.kernel = choice_of<KernelKind>("--kernel", *kernel);
     s.judge.c = default_c(s.judge.kernel);

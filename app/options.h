@@ -44,6 +44,9 @@ struct SettingsArguments {
   std::optional<double> support_angle;
   std::optional<std::string> surface;
   std::optional<std::string> encoding;
+  std::optional<std::string> up;
+  std::optional<std::string> taught_for;
+  std::optional<int> draws;
   std::optional<int> words;
   std::optional<std::string> kernel;
   std::optional<double> c;

@@ -13,6 +13,12 @@ namespace {
 
 using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+void fill(Rows& rows, Random& random) {
+  for (Eigen::Index i = 0; i < rows.size(); ++i) {
+    rows.data()[i] = static_cast<float>(random.normal());
+  }
+}
+
 // `each` points close around every one of three far-apart places in five dimensions.
 Rows three_heaps(Eigen::Index each) {
   Random random(3);
@@ -61,13 +67,9 @@ TEST(Codebook, CountsTheNearestWord) {
   Random random(9);
   Codebook codebook;
   codebook.words.resize(130, 4);  // more than one tile
-  for (float& value : codebook.words.reshaped()) {
-    value = static_cast<float>(random.normal());
-  }
+  fill(codebook.words, random);
   Rows local(90, 4);
-  for (float& value : local.reshaped()) {
-    value = static_cast<float>(random.normal());
-  }
+  fill(local, random);
   std::vector<double> shares(130, 0.0);
   for (Eigen::Index i = 0; i < 90; ++i) {
     Eigen::Index nearest = 0;

@@ -78,7 +78,7 @@ TEST(MakeEncoding, KnowsEachByItsName) {
     EXPECT_EQ(make_encoding(name)->name(), name);
   }
   EXPECT_EQ(test::input_error([] { make_encoding("fisher"); }),
-            "encoding 'fisher' is not known (one of pooled-pyramid, concatenation)");
+            "encoding 'fisher' is not known (one of pooled-pyramid, concatenation, mean-image, bag-of-features)");
 }
 
 }  // namespace

@@ -225,7 +225,8 @@ TEST(JudgeList, RbfTellsARingFromItsMiddle) {
     labels.push_back(static_cast<std::uint32_t>(i % 2));
   }
   const auto right = [&](KernelKind kind) {
-    const TrainingSet training(features, {}, fit_kernel(kind, std::vector<std::uint32_t>{2}, features, rows), labels,
+    const SharedGram none;
+    const TrainingSet training(features, none, fit_kernel(kind, std::vector<std::uint32_t>{2}, features, rows), labels,
                                rows, 2);
     const JudgeList judges = training.list(std::vector<Judge>{training.teach({0, 1}, {kind, 200.0, true})});
     int count = 0;

@@ -16,8 +16,8 @@ const std::vector<std::uint32_t> kBlocks = {3, 1, 6};
 FeatureMatrix random_features(Eigen::Index rows) {
   Random random(5);
   FeatureMatrix features(rows, 10);
-  for (float& value : features.reshaped()) {
-    value = static_cast<float>(random.normal());
+  for (Eigen::Index i = 0; i < features.size(); ++i) {
+    features.data()[i] = static_cast<float>(random.normal());
   }
   return features;
 }

@@ -18,6 +18,7 @@
 #include "spincat/pipeline/feature_table.h"
 #include "spincat/pipeline/teach.h"
 #include "spincat/pipeline/train.h"
+#include "spincat/prepare/as_cloud.h"
 #include "support/expect_error.h"
 #include "support/shapes.h"
 #include "support/temp_dir.h"
@@ -325,6 +326,93 @@ TEST(Progress, AnExceptionEndsTheWorkInAnyStage) {
       EXPECT_THROW(train(shapes(), small_settings("paper"), {false, threads}, progress), Interrupted) << stage;
     }
   }
+}
+
+TEST(Describe, PartsAreJoinedAtLengthOne) {
+  Settings settings = small_settings();
+  settings.plain_samples = false;
+  const Object object = test::box(1, 2, 3);
+  const FeatureVector one = describe(object, settings);
+  settings.plain_samples = true;
+  settings.up = UpAxis::z;
+  const FeatureVector three = describe(object, settings);
+  ASSERT_EQ(three.values.size(), 3 * one.values.size());
+  EXPECT_EQ(three.blocks.size(), 3 * one.blocks.size());
+  double squared = 0.0;
+  for (std::size_t i = 0; i < three.values.size(); ++i) {
+    squared += static_cast<double>(three.values[i]) * static_cast<double>(three.values[i]);
+    if (i < one.values.size()) {
+      EXPECT_FLOAT_EQ(three.values[i], one.values[i] / std::sqrt(3.0F));
+    }
+  }
+  EXPECT_NEAR(squared, 1.0, 1e-5);
+}
+
+TEST(Describe, TheUpAxisPartTellsHowAnObjectStands) {
+  // A box lying and standing: the same to all parts but that of the up axis, which sees no difference between boxes
+  // that are turned about it.
+  Settings settings = preset("default");
+  settings.plain_samples = false;
+  settings.up = UpAxis::z;
+  const auto last_part = [&](const Mesh& mesh) {
+    const std::vector<float> values = describe(mesh, settings).values;
+    const auto half = static_cast<Eigen::Index>(values.size() / 2);
+    return Eigen::VectorXf(Eigen::Map<const Eigen::VectorXf>(values.data() + half, half));
+  };
+  const Eigen::VectorXf standing = last_part(test::box(1, 1, 3));
+  const double turn = 0.7;
+  const Mesh turned = test::turned(test::box(1, 1, 3), Eigen::Quaterniond(Eigen::AngleAxisd(turn, Vec3(0, 0, 1))));
+  EXPECT_LT((last_part(turned) - standing).norm(), 0.15F);
+  EXPECT_GT((last_part(test::box(3, 1, 1)) - standing).norm(), 0.4F);
+}
+
+TEST(Describe, DrawsAreAveraged) {
+  Settings settings = small_settings();
+  const Object object = test::box(1, 2, 3);
+  const auto vector_of = [&](int draws, std::uint64_t seed) {
+    settings.draws = draws;
+    settings.seed = seed;
+    const std::vector<float> values = describe(object, settings).values;
+    return Eigen::VectorXf(Eigen::Map<const Eigen::VectorXf>(values.data(), static_cast<Eigen::Index>(values.size())));
+  };
+  // The mean over nine draws moves about a third as much from seed to seed as a single one.
+  const float single = (vector_of(1, 1) - vector_of(1, 2)).norm();
+  const float mean = (vector_of(9, 1) - vector_of(9, 2)).norm();
+  EXPECT_GT(mean, 0.0F);
+  EXPECT_LT(mean, 0.6F * single);
+}
+
+TEST(Describe, CloudCopiesAreClouds) {
+  Settings settings = small_settings();
+  EXPECT_EQ(settings.training_views(), 2);
+  settings.copies = 2;
+  settings.taught_for = TaughtFor::any;
+  EXPECT_EQ(settings.training_views(), 5);
+  // As many points as asked for, and not those that can be seen of a mesh: all of them may be drawn from a hidden face.
+  const Object object = test::box();
+  for (int copy = 1; copy < 5; ++copy) {
+    const PreparedObject prepared = prepare_object(object, settings, copy).object;
+    double off_surface = 0.0;
+    for (std::size_t i = 0; i < prepared.surface.size(); ++i) {
+      const Eigen::Vector3f n = prepared.surface.normal(i);
+      off_surface = std::max(off_surface, 1.0 - static_cast<double>(n.cwiseAbs().maxCoeff()));
+    }
+    // The normals of a box's faces are axes; estimated ones near its edges are not.
+    EXPECT_EQ(off_surface > 1e-3, copy > 2) << copy;
+  }
+}
+
+TEST(TrainForAny, NamesCloudsAsWell) {
+  Settings settings = small_settings();
+  settings.copies = 2;
+  settings.taught_for = TaughtFor::any;
+  const Model model = train(shapes(), settings, {false, 2}).model;
+  int right = 0;
+  for (const DatasetObject& object : shapes().objects) {
+    const Object cloud = as_cloud(read_object(object.file), 400, 0.005, 77);
+    right += classify(model, cloud).ballot.winner == object.category ? 1 : 0;
+  }
+  EXPECT_GE(right, 20);  // of 24
 }
 
 TEST(TeachJudges, TestObjectsDoNotInfluenceTheCodebook) {

@@ -31,6 +31,10 @@ Settings unusual() {
   s.spin.support_angle = 77.7;
   s.bin_size_unit = BinSizeUnit::resolution;
   s.encoding = "concatenation";
+  s.plain_samples = true;
+  s.up = UpAxis::y;
+  s.draws = 3;
+  s.taught_for = TaughtFor::any;
   s.words = 99;
   s.judge.kernel = KernelKind::rbf;
   s.judge.c = 1.0 / 3.0;
@@ -71,6 +75,10 @@ TEST(SettingsJson, RoundTripsEveryField) {
   EXPECT_EQ(back.spin.support_angle, s.spin.support_angle);
   EXPECT_EQ(back.bin_size_unit, s.bin_size_unit);
   EXPECT_EQ(back.encoding, s.encoding);
+  EXPECT_EQ(back.plain_samples, s.plain_samples);
+  EXPECT_EQ(back.up, s.up);
+  EXPECT_EQ(back.draws, s.draws);
+  EXPECT_EQ(back.taught_for, s.taught_for);
   EXPECT_EQ(back.words, s.words);
   EXPECT_EQ(back.judge.kernel, s.judge.kernel);
   EXPECT_EQ(back.judge.c, s.judge.c);
@@ -120,7 +128,7 @@ TEST(SettingsJson, RoundTripsEveryChoice) {
 
 TEST(SettingsJson, NamesAMissingField) {
   const Json whole = json_of(preset("default"));
-  EXPECT_EQ(whole.size(), 21U);
+  EXPECT_EQ(whole.size(), 25U);
   for (const auto& [field, value] : whole.items()) {
     Json json = whole;
     json.erase(field);
@@ -143,7 +151,7 @@ TEST(SettingsJson, NamesAFieldOfTheWrongType) {
 }
 
 TEST(SettingsJson, DoesNotCutNumbers) {
-  for (const char* field : {"points", "spin_points", "neighbours", "image_width", "words", "copies"}) {
+  for (const char* field : {"points", "spin_points", "neighbours", "image_width", "words", "draws", "copies"}) {
     const std::string expected = "setting '" + std::string(field) + "' is not a whole number in range";
     EXPECT_EQ(error_with(field, 8.5), expected);
     EXPECT_EQ(error_with(field, 8.0), expected);
@@ -164,6 +172,9 @@ TEST(SettingsJson, NamesAFieldOutOfRange) {
   EXPECT_EQ(error_with("bin_size", std::numeric_limits<double>::infinity()), "bin size inf is out of range (above 0)");
   EXPECT_EQ(error_with("support_angle", 181), "support angle 181 is out of range (0 to 180 degrees)");
   EXPECT_EQ(error_with("c", std::numeric_limits<double>::quiet_NaN()), "C nan is out of range (above 0)");
+  EXPECT_EQ(error_with("draws", 0), "number of draws 0 is out of range (1 to 100)");
+  EXPECT_EQ(error_with("up", "w"), "up 'w' is not known (one of none, x, y, z)");
+  EXPECT_EQ(error_with("taught_for", "scans"), "taught_for 'scans' is not known (one of meshes, any)");
   EXPECT_EQ(error_with("words", 1), "number of words 1 is out of range (2 to 65536)");
   EXPECT_EQ(error_with("copies", 101), "number of copies 101 is out of range (0 to 100)");
   EXPECT_EQ(error_with("stretch", 2.5), "stretch 2.5 is out of range (0 to 2)");

@@ -1,11 +1,17 @@
 #include "spincat/pipeline/describe.h"
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "spincat/encode/encoding.h"
 #include "spincat/geometry/random.h"
 #include "spincat/pipeline/stopwatch.h"
+#include "spincat/prepare/as_cloud.h"
 #include "spincat/prepare/prepare.h"
 #include "spincat/prepare/resolution.h"
 #include "spincat/spin/spin_images.h"
@@ -23,6 +29,8 @@ StageSeconds& StageSeconds::operator+=(const StageSeconds& other) {
 
 namespace {
 
+constexpr double kCloudNoise = 0.01;  // of the diameter
+
 // The bin size in the unit of prepared points. `given` is the object they were made of.
 double prepared_bin_size(const Object& given, const PreparedObject& prepared, const Settings& settings) {
   switch (settings.bin_size_unit) {
@@ -36,34 +44,73 @@ double prepared_bin_size(const Object& given, const PreparedObject& prepared, co
   return settings.spin.bin_size;  // the prepared object's radius is 1
 }
 
-Preparation prepare_shape(const Object& shape, const Settings& settings, std::uint64_t seed) {
-  Preparation result{prepare(shape, settings.prepare, seed), settings.spin};
+// What the random numbers of an object are for (derive_seed's purpose).
+enum Purpose : std::uint64_t { kCloud = 200, kDraw = 201 };
+
+// What copy number `copy` of an object is: stretched, or stretched and turned into a cloud. Nothing for 0, the object
+// itself.
+std::optional<Object> shape_of_copy(const Object& object, const Settings& settings, int copy) {
+  if (copy == 0) {
+    return std::nullopt;
+  }
+  Object shape = stretched_copy(object, copy, settings.stretch, settings.seed);
+  if (copy <= settings.copies) {
+    return shape;
+  }
+  // Every other cloud is exact, the others are as noisy as a good scan is at worst.
+  const double noise = (copy - settings.copies) % 2 == 1 ? kCloudNoise : 0.0;
+  const std::uint64_t seed = derive_seed(derive_seed(settings.seed, kCloud), static_cast<std::uint64_t>(copy));
+  return as_cloud(shape, static_cast<std::size_t>(settings.prepare.points), noise, seed);
+}
+
+// A copy gets points of its own: another look at another shape. So does every draw.
+std::uint64_t seed_of(const Settings& settings, int copy, int draw) {
+  const std::uint64_t seed = derive_seed(settings.seed, static_cast<std::uint64_t>(copy));
+  return draw == 0 ? seed : derive_seed(derive_seed(seed, kDraw), static_cast<std::uint64_t>(draw));
+}
+
+// One of the parts of a feature vector: which points, and which way the axes of the spin images point.
+struct Part {
+  SurfaceKind surface;
+  UpAxis axes;  // none: along the normals
+};
+
+std::vector<Part> parts_of(const Settings& settings) {
+  std::vector<Part> parts = {{settings.prepare.surface, UpAxis::none}};
+  if (settings.plain_samples) {
+    parts.push_back({SurfaceKind::samples, UpAxis::none});
+  }
+  if (settings.up != UpAxis::none) {
+    parts.push_back({settings.prepare.surface, settings.up});
+  }
+  return parts;
+}
+
+void turn_axes(UpAxis up, OrientedPoints& spin_points) {
+  if (up == UpAxis::none) {
+    return;
+  }
+  const Eigen::Vector3f axis = Eigen::Vector3f::Unit(static_cast<int>(up) - static_cast<int>(UpAxis::x));
+  for (std::size_t i = 0; i < spin_points.size(); ++i) {
+    spin_points.set(i, spin_points.position(i), axis);
+  }
+}
+
+Preparation prepare_part(const Object& shape, const Settings& settings, const Part& part, std::uint64_t seed) {
+  PrepareSettings prepare_settings = settings.prepare;
+  prepare_settings.surface = part.surface;
+  Preparation result{prepare(shape, prepare_settings, seed), settings.spin};
+  turn_axes(part.axes, result.object.spin_points);
   result.params.bin_size = prepared_bin_size(shape, result.object, settings);
   result.params.validate();  // an absolute size may vanish beside a huge object
   return result;
 }
 
-}  // namespace
-
-Preparation prepare_object(const Object& object, const Settings& settings, int copy) {
-  // A copy gets points of its own: another look at another shape.
-  const std::uint64_t seed = derive_seed(settings.seed, static_cast<std::uint64_t>(copy));
-  if (copy > 0) {
-    return prepare_shape(stretched_copy(object, copy, settings.stretch, settings.seed), settings, seed);
-  }
-  return prepare_shape(object, settings, seed);
-}
-
-FeatureVector describe(const Object& object, const Settings& settings, int copy, StageSeconds* seconds) {
-  StageSeconds spent;
-  Stopwatch watch;
-  const auto [prepared, params] = prepare_object(object, settings, copy);
-  spent.prepare = watch.lap();
-
-  const std::unique_ptr<Encoding> encoding = make_encoding(settings.encoding);
-  const auto object_sums = encoding->begin(prepared.surface, prepared.spin_points, params);
+FeatureVector encoded(const Preparation& preparation, const Encoding& encoding, Stopwatch& watch, StageSeconds& spent) {
+  const auto& [prepared, params] = preparation;
+  const auto object_sums = encoding.begin(prepared.surface, prepared.spin_points, params);
   std::vector<double> sums(object_sums->size(), 0.0);
-  spent.encode = watch.lap();
+  spent.encode += watch.lap();
   make_spin_images(prepared.surface, prepared.spin_points, params, [&](const SpinImageBlock& block) {
     spent.spin += watch.lap();
     object_sums->accumulate(block, sums);
@@ -71,10 +118,53 @@ FeatureVector describe(const Object& object, const Settings& settings, int copy,
   });
   FeatureVector features = object_sums->finish(sums);
   spent.encode += watch.lap();
+  return features;
+}
+
+// Appends the part's blocks and values, these times `factor`.
+void append(const FeatureVector& part, float factor, FeatureVector& whole) {
+  for (const float value : part.values) {
+    whole.values.push_back(value * factor);
+  }
+  whole.blocks.insert(whole.blocks.end(), part.blocks.begin(), part.blocks.end());
+  whole.encoding = part.encoding;
+  whole.local_size = part.local_size;
+}
+
+}  // namespace
+
+Preparation prepare_object(const Object& object, const Settings& settings, int copy) {
+  const std::optional<Object> changed = shape_of_copy(object, settings, copy);
+  return prepare_part(changed ? *changed : object, settings, parts_of(settings)[0], seed_of(settings, copy, 0));
+}
+
+FeatureVector describe(const Object& object, const Settings& settings, int copy, StageSeconds* seconds) {
+  StageSeconds spent;
+  Stopwatch watch;
+  const std::optional<Object> changed = shape_of_copy(object, settings, copy);
+  const Object& shape = changed ? *changed : object;
+  const std::unique_ptr<Encoding> encoding = make_encoding(settings.encoding);
+  const std::vector<Part> parts = parts_of(settings);
+  const float factor = 1.0F / std::sqrt(static_cast<float>(parts.size()));
+  FeatureVector whole;
+  for (const Part& part : parts) {
+    FeatureVector mean;
+    for (int draw = 0; draw < settings.draws; ++draw) {
+      const Preparation preparation = prepare_part(shape, settings, part, seed_of(settings, copy, draw));
+      spent.prepare += watch.lap();
+      FeatureVector drawn = encoded(preparation, *encoding, watch, spent);
+      if (draw == 0) {
+        mean = std::move(drawn);
+      } else {
+        std::ranges::transform(mean.values, drawn.values, mean.values.begin(), std::plus<>());
+      }
+    }
+    append(mean, factor / static_cast<float>(settings.draws), whole);
+  }
   if (seconds != nullptr) {
     *seconds += spent;
   }
-  return features;
+  return whole;
 }
 
 }  // namespace spincat

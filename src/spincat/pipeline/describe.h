@@ -19,8 +19,10 @@ struct StageSeconds {
   StageSeconds& operator+=(const StageSeconds& other);
 };
 
-// The feature vector of an object, or of its stretched training copy number `copy`. Deterministic. Adds the time spent
-// to `seconds` where one is given. Throws InputError (without a file name) when the object has no extent.
+// The feature vector of an object, or of its training copy number `copy`, 1 to settings.training_views() - 1: the first
+// settings.copies are stretched, those after them are stretched and turned into clouds of settings.prepare.points
+// points, every other one exact and every other one with noise of 1 % of the diameter. Deterministic. Adds the time
+// spent to `seconds` where one is given. Throws InputError (without a file name) when the object has no extent.
 FeatureVector describe(const Object& object, const Settings& settings, int copy = 0, StageSeconds* seconds = nullptr);
 
 // What an object's spin images are made of, and how: parameters in the unit of the prepared points.
@@ -29,8 +31,9 @@ struct Preparation {
   SpinImageParams params;
 };
 
-// The first stage of describe by itself, for those who want the spin images: of an object, or of its stretched training
-// copy number `copy`. Deterministic. Throws as describe does, and when the bin size is out of range for this object.
+// The first stage of describe by itself, for those who want the spin images: of an object, or of its training copy
+// number `copy`; the first part's first draw. Deterministic. Throws as describe does, and when the bin size is out of
+// range for this object.
 Preparation prepare_object(const Object& object, const Settings& settings, int copy = 0);
 
 }  // namespace spincat

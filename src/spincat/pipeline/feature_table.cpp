@@ -31,7 +31,7 @@ Described describe_object(const DatasetObject& entry, const Settings& settings, 
     Stopwatch watch;
     const Object object = read_object(entry.file);
     result.seconds.read = watch.lap();
-    for (int copy = 0; copy <= settings.copies; ++copy) {
+    for (int copy = 0; copy < settings.training_views(); ++copy) {
       result.features.push_back(describe(object, settings, copy, &result.seconds));
       between_copies();
     }
@@ -97,7 +97,7 @@ FeatureTable collect(const Dataset& dataset, std::vector<Described> described, c
   table.skipped = dataset.skipped;
   table.words = static_cast<std::uint32_t>(settings.words);
   table.seed = settings.seed;
-  table.rows_per_object = static_cast<std::uint32_t>(settings.copies + 1);
+  table.rows_per_object = static_cast<std::uint32_t>(settings.training_views());
   Eigen::Index length = 0;
   for (std::size_t i = 0; i < described.size(); ++i) {
     table.seconds += described[i].seconds;

@@ -19,6 +19,8 @@ constexpr ChoiceName<AngleTest> kAngleTests[] = {{AngleTest::cutoff, "cutoff"}, 
 constexpr ChoiceName<BinSizeUnit> kUnits[] = {
     {BinSizeUnit::absolute, "absolute"}, {BinSizeUnit::resolution, "resolution"}, {BinSizeUnit::relative, "relative"}};
 constexpr ChoiceName<KernelKind> kKernels[] = {{KernelKind::linear, "linear"}, {KernelKind::rbf, "rbf"}};
+constexpr ChoiceName<UpAxis> kUpAxes[] = {{UpAxis::none, "none"}, {UpAxis::x, "x"}, {UpAxis::y, "y"}, {UpAxis::z, "z"}};
+constexpr ChoiceName<TaughtFor> kTaughtFor[] = {{TaughtFor::meshes, "meshes"}, {TaughtFor::any, "any"}};
 
 }  // namespace
 
@@ -49,6 +51,14 @@ std::span<const ChoiceName<BinSizeUnit>> choices() {
 template <>
 std::span<const ChoiceName<KernelKind>> choices() {
   return kKernels;
+}
+template <>
+std::span<const ChoiceName<UpAxis>> choices() {
+  return kUpAxes;
+}
+template <>
+std::span<const ChoiceName<TaughtFor>> choices() {
+  return kTaughtFor;
 }
 
 void throw_unknown_choice(std::string_view field, std::string_view name, std::span<const std::string_view> known) {

@@ -32,6 +32,10 @@ template <>
 std::span<const ChoiceName<BinSizeUnit>> choices();
 template <>
 std::span<const ChoiceName<KernelKind>> choices();
+template <>
+std::span<const ChoiceName<UpAxis>> choices();
+template <>
+std::span<const ChoiceName<TaughtFor>> choices();
 
 // The name of a choice.
 template <class Choice>

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <memory>
+
 #include "spincat/encode/encoding.h"
 #include "spincat/error.h"
 
@@ -40,7 +42,14 @@ void Settings::validate() const {
   prepare.validate();
   spin.validate();
   judge.validate();
-  make_encoding(encoding)->check(spin);
+  const std::unique_ptr<Encoding> checked = make_encoding(encoding);
+  checked->check(spin);
+  if (draws < 1 || draws > 100) {
+    throw InputError(fmt::format("number of draws {} is out of range (1 to 100)", draws));
+  }
+  if (checked->gives_local_features() && (plain_samples || up != UpAxis::none || draws > 1)) {
+    throw InputError(fmt::format("the encoding {} knows no plain samples, no up axis and only one draw", encoding));
+  }
   if (words < 2 || words > 65'536) {
     throw InputError(fmt::format("number of words {} is out of range (2 to 65536)", words));
   }

@@ -19,6 +19,12 @@ enum class BinSizeUnit {
   relative,    // the object's radius: the distance of its furthest point from the centre of its bounding box
 };
 
+// What the judges are taught for.
+enum class TaughtFor {
+  meshes,  // objects as the training files hold them
+  any,     // point clouds as well, exact or noisy: each training object is shown as clouds besides
+};
+
 // Everything that decides about the result, and nothing else (no threads, no file names). A model keeps a copy, so that
 // classifying repeats exactly what training did.
 struct Settings {
@@ -27,11 +33,20 @@ struct Settings {
   SpinImageParams spin;  // spin.bin_size in the unit below
   BinSizeUnit bin_size_unit = BinSizeUnit::relative;
   std::string encoding = "pooled-pyramid";
-  int words = 256;  // of the codebook that the bag-of-features encoding learns, 2 to 65,536
+  // The feature vector is made of parts, joined and scaled to length 1: the encoding of the spin images of the points
+  // that prepare.surface says, and those that are switched on here.
+  bool plain_samples = false;  // the same of points drawn evenly from all faces, hidden ones too
+  UpAxis up = UpAxis::none;    // the same with spin images whose axes all point up, instead of along the normals
+  int draws = 1;               // every part is the mean over so many draws of points, 1 to 100
+  int words = 256;             // of the codebook that the bag-of-features encoding learns, 2 to 65,536
   JudgeSettings judge;
-  int copies = 6;          // stretched copies of each training object, 0 to 100
-  double stretch = 0.2;    // each axis of a copy is stretched by exp(U(-stretch, stretch)), 0 to 2
-  std::uint64_t seed = 1;  // of every random choice
+  int copies = 6;                            // stretched copies of each training object, 0 to 100
+  TaughtFor taught_for = TaughtFor::meshes;  // any: besides, as many stretched copies turned into clouds
+  double stretch = 0.2;                      // each axis of a copy is stretched by exp(U(-stretch, stretch)), 0 to 2
+  std::uint64_t seed = 1;                    // of every random choice
+
+  // How many feature vectors a training object gives: its own and its copies'.
+  int training_views() const { return 1 + copies * (taught_for == TaughtFor::any ? 2 : 1); }
 
   // Throws InputError naming the field, its value and the allowed range.
   void validate() const;

@@ -64,11 +64,15 @@ nlohmann::ordered_json settings_to_json(const Settings& s) {
           {"binning", name_of(s.spin.binning)},
           {"angle_test", name_of(s.spin.angle_test)},
           {"encoding", s.encoding},
+          {"plain_samples", s.plain_samples},
+          {"up", name_of(s.up)},
+          {"draws", s.draws},
           {"words", s.words},
           {"kernel", name_of(s.judge.kernel)},
           {"c", s.judge.c},
           {"class_weights", s.judge.class_weights},
           {"copies", s.copies},
+          {"taught_for", name_of(s.taught_for)},
           {"stretch", s.stretch},
           {"seed", s.seed}};
 }
@@ -89,11 +93,15 @@ Settings settings_from_json(const Json& json) {
   s.spin.binning = choice<Binning>(json, "binning");
   s.spin.angle_test = choice<AngleTest>(json, "angle_test");
   s.encoding = field<std::string>(json, "encoding");
+  s.plain_samples = field<bool>(json, "plain_samples");
+  s.up = choice<UpAxis>(json, "up");
+  s.draws = whole<int>(json, "draws");
   s.words = whole<int>(json, "words");
   s.judge.kernel = choice<KernelKind>(json, "kernel");
   s.judge.c = field<double>(json, "c");
   s.judge.class_weights = field<bool>(json, "class_weights");
   s.copies = whole<int>(json, "copies");
+  s.taught_for = choice<TaughtFor>(json, "taught_for");
   s.stretch = field<double>(json, "stretch");
   s.seed = whole<std::uint64_t>(json, "seed");
   s.validate();

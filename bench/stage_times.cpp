@@ -24,14 +24,16 @@ std::map<std::string, Settings> recipes() {
 JudgeList six_categories(std::size_t feature_length) {
   constexpr std::uint32_t kCategories = 6;
   Random random(3);
-  std::vector<Judge> judges(all_pairs(kCategories).size());
-  for (Judge& judge : judges) {
-    judge.weights.resize(static_cast<Eigen::Index>(feature_length));
-    for (float& weight : judge.weights) {
-      weight = static_cast<float>(random.uniform(-1.0, 1.0));
-    }
+  const auto count = static_cast<Eigen::Index>(all_pairs(kCategories).size());
+  JudgeList judges;
+  judges.categories = kCategories;
+  judges.weights.resize(count, static_cast<Eigen::Index>(feature_length));
+  for (Eigen::Index i = 0; i < judges.weights.size(); ++i) {
+    judges.weights.data()[i] = static_cast<float>(random.uniform(-1.0, 1.0));
   }
-  return JudgeList::fold(kCategories, judges);
+  judges.bias.setZero(count);
+  judges.support_vectors.assign(static_cast<std::size_t>(count), 1);
+  return judges;
 }
 
 // Milliseconds by stage for one object.

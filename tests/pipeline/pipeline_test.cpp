@@ -79,6 +79,7 @@ Settings small_settings(const char* name = "default") {
   settings.prepare.spin_points = 48;
   settings.spin.image_width = 8;
   settings.spin.bin_size = 0.25;
+  settings.plain_samples = false;
   settings.copies = std::min(settings.copies, 1);
   return settings;
 }

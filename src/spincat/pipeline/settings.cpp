@@ -18,6 +18,7 @@ Settings default_preset() {
   s.spin.support_angle = 180.0;
   s.spin.binning = Binning::nearest;
   s.spin.angle_test = AngleTest::soft;
+  s.plain_samples = true;
   return s;
 }
 

@@ -19,6 +19,7 @@ inline Settings tiny_settings() {
   settings.prepare.spin_points = 32;
   settings.spin.image_width = 8;
   settings.spin.bin_size = 0.25;
+  settings.plain_samples = false;
   settings.copies = 1;
   return settings;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "spincat/dataset/splits.h"
+#include "spincat/judge/kernel.h"
 #include "spincat/pipeline/evaluate.h"
 
 namespace spincat {

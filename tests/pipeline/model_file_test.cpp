@@ -74,6 +74,7 @@ Model rbf_model() {
 Model bag_model() {
   Model model = small_model();
   model.settings.encoding = "bag-of-features";
+  model.settings.plain_samples = false;
   model.judges.codebook.words.resize(5, 2);
   model.judges.codebook.words << 0, 1, 2, 3, 4, 5, 6, 7, 8, 9;
   return model;

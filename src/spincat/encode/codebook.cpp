@@ -39,9 +39,19 @@ std::vector<std::uint32_t> nearest_words(const Eigen::Ref<const Rows>& rows, con
   std::vector<std::uint32_t> nearest(static_cast<std::size_t>(rows.rows()));
   const Eigen::VectorXf half_lengths = 0.5F * words.rowwise().squaredNorm();
   const Eigen::Index chunks = (rows.rows() + kChunk - 1) / kChunk;
+  const auto find = [&](Eigen::Index chunk) {
+    const Eigen::Index first = chunk * kChunk;
+    find_nearest(rows, first, std::min(kChunk, rows.rows() - first), words, half_lengths, nearest);
+  };
+  if (threads == 1) {  // no team of threads for each of many small tasks, which may run on threads already
+    for (Eigen::Index chunk = 0; chunk < chunks; ++chunk) {
+      find(chunk);
+    }
+    return nearest;
+  }
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
-  for (Eigen::Index c = 0; c < chunks; ++c) {
-    find_nearest(rows, c * kChunk, std::min(kChunk, rows.rows() - c * kChunk), words, half_lengths, nearest);
+  for (Eigen::Index chunk = 0; chunk < chunks; ++chunk) {
+    find(chunk);
   }
   return nearest;
 }

@@ -77,6 +77,7 @@ Model bag_model() {
   model.settings.plain_samples = false;
   model.judges.codebook.words.resize(5, 2);
   model.judges.codebook.words << 0, 1, 2, 3, 4, 5, 6, 7, 8, 9;
+  model.familiarity = {};  // local features are not compared object by object
   return model;
 }
 

@@ -147,6 +147,9 @@ void ViewSettings::validate() const {
   check_rising("distance of views", least_distance, most_distance, 0.1, 20.0);
   check_rising("elevation of views", least_elevation, most_elevation, 1.0, 89.0);
   check_rising("noise of views", 0.0, most_noise, 0.0, 10.0);
+  if (up == UpAxis::none) {
+    throw InputError("views of models need to know which axis points up (x, y or z)");
+  }
   segment.validate();
 }
 

@@ -5,15 +5,13 @@
 
 #include "spincat/camera/segment.h"
 #include "spincat/geometry/object.h"
+#include "spincat/geometry/up_axis.h"
 
 namespace spincat {
 
-// Which way is up in a model's file.
-enum class UpAxis { x, y, z };
-
 // How models are looked at. Everything is drawn uniformly from its range for each view.
 struct ViewSettings {
-  UpAxis up = UpAxis::y;
+  UpAxis up = UpAxis::y;  // of the models; not none
   double least_size = 0.15;  // of the model's largest extent, in metres
   double most_size = 0.35;
   double least_distance = 0.8;  // from the camera to the model, in metres

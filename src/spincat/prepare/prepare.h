@@ -21,9 +21,6 @@ enum class NormalOrientation {
   outward,   // away from the centroid (and always towards the sensor, where a cloud has one)
 };
 
-// The axis of the file that points up, where all objects of a data set are known to stand the same way.
-enum class UpAxis { none, x, y, z };
-
 struct PrepareSettings {
   SurfaceKind surface = SurfaceKind::external;
   NormalOrientation orientation = NormalOrientation::outward;

@@ -44,7 +44,7 @@ double Familiarity::of(std::span<const float> features, std::uint32_t category) 
   if (empty()) {
     return 0.0;
   }
-  const Eigen::Map<const Eigen::RowVectorXf> x(features.data(), static_cast<Eigen::Index>(features.size()));
+  const Eigen::Map<const Eigen::RowVectorXf> x(features.data(), objects.cols());
   return (typical[category] - nearest(*this, x, category, labels.size())) / spread[category];
 }
 

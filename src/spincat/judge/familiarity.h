@@ -11,7 +11,7 @@ namespace spincat {
 
 // The training objects themselves, and how near to each other those of a category lie. Empty where nothing is known.
 struct Familiarity {
-  FeatureMatrix objects;              // N x D, without copies
+  FeatureMatrix objects;  // N x E, without copies: the first E of the judges' D features
   std::vector<std::uint32_t> labels;  // N
   std::vector<float> typical;  // of each category: the mean squared distance of its objects to their nearest neighbour
                                // in it; of all categories together where it has a single object
@@ -21,8 +21,8 @@ struct Familiarity {
   bool empty() const { return labels.empty(); }
 
   // (typical - d) / spread, where d is the squared distance of the object to the nearest training object of the
-  // category: around 0 for one of its kind, far below 0 for a stranger. 0 when empty. Precondition: D matches, the
-  // category has an object.
+  // category: around 0 for one of its kind, far below 0 for a stranger. 0 when empty. Preconditions: `features`
+  // are E or more, the category has an object.
   double of(std::span<const float> features, std::uint32_t category) const;
 };
 

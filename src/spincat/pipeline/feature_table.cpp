@@ -98,6 +98,7 @@ FeatureTable collect(const Dataset& dataset, std::vector<Described> described, c
   table.words = static_cast<std::uint32_t>(settings.words);
   table.seed = settings.seed;
   table.rows_per_object = static_cast<std::uint32_t>(settings.training_views());
+  table.parts = static_cast<std::uint32_t>(settings.parts());
   Eigen::Index length = 0;
   for (std::size_t i = 0; i < described.size(); ++i) {
     table.seconds += described[i].seconds;

@@ -26,6 +26,7 @@ struct FeatureTable {
   std::uint32_t words = 0;              // of the codebook that is learned for them
   std::uint64_t seed = 1;               // of that learning
   std::uint32_t rows_per_object = 1;
+  std::uint32_t parts = 1;  // of a row, all of one length
   std::string encoding;
   StageSeconds seconds;  // added up over threads
 

@@ -211,11 +211,12 @@ Familiarity familiarity_from_json(const Json& json, std::size_t categories, std:
   f.labels = counts(json, "labels", labels.size());
   // The blob's size is checked before any memory is taken for it.
   const Json& objects = member(json, "objects");
-  if (!objects.is_binary() || objects.get_binary().size() / sizeof(float) / features != f.labels.size()) {
+  const std::size_t length = objects.is_binary() ? objects.get_binary().size() / sizeof(float) / f.labels.size() : 0;
+  if (length == 0 || length > features) {
     throw InputError("model: 'objects' is of the wrong size");
   }
-  f.objects.resize(static_cast<Eigen::Index>(f.labels.size()), static_cast<Eigen::Index>(features));
-  unpack_floats(json, "objects", {f.objects.data(), f.labels.size() * features});
+  f.objects.resize(static_cast<Eigen::Index>(f.labels.size()), static_cast<Eigen::Index>(length));
+  unpack_floats(json, "objects", {f.objects.data(), f.labels.size() * length});
   f.typical.resize(categories);
   f.spread.resize(categories);
   unpack_floats(json, "typical", f.typical);

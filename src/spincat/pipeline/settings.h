@@ -46,6 +46,9 @@ struct Settings {
   double stretch = 0.2;                      // each axis of a copy is stretched by exp(U(-stretch, stretch)), 0 to 2
   std::uint64_t seed = 1;                    // of every random choice
 
+  // How many parts a feature vector has, all of one length.
+  int parts() const { return 1 + (plain_samples ? 1 : 0) + (up != UpAxis::none ? 1 : 0); }
+
   // How many feature vectors a training object gives: its own and its copies'.
   int training_views() const { return 1 + copies * (taught_for == TaughtFor::any ? 2 : 1); }
 

@@ -115,11 +115,12 @@ Familiarity familiarity_of(const FeatureTable& table, std::span<const std::uint3
   if (table.local_size > 0) {
     return {};  // local features are compared by the words of a codebook alone
   }
-  FeatureMatrix features(static_cast<Eigen::Index>(objects.size()), table.features.cols());
+  const Eigen::Index length = table.features.cols() / table.parts;
+  FeatureMatrix features(static_cast<Eigen::Index>(objects.size()), length);
   std::vector<std::uint32_t> labels;
   for (const std::uint32_t object : objects) {
     features.row(static_cast<Eigen::Index>(labels.size())) =
-        table.features.row(static_cast<Eigen::Index>(object) * table.rows_per_object);
+        table.features.row(static_cast<Eigen::Index>(object) * table.rows_per_object).head(length);
     labels.push_back(table.objects[object].category);
   }
   return make_familiarity(std::move(features), std::move(labels), static_cast<std::uint32_t>(table.categories.size()));

@@ -24,7 +24,8 @@ SharedGram shared_gram(const FeatureTable& table, const JudgeSettings& settings,
 JudgeList teach_judges(const FeatureTable& table, const SharedGram& gram, std::span<const std::uint32_t> objects,
                        const JudgeSettings& settings, int threads, const Progress& progress);
 
-// The given objects as familiarity sees them: their features, without copies. Empty where the table has none to compare
+// The given objects as familiarity sees them: the first part of their features (what is seen from outside), without
+// copies: strangers stand out in it more than in all parts together (docs/accuracy.md). Empty where the table has none to compare
 // objects by.
 Familiarity familiarity_of(const FeatureTable& table, std::span<const std::uint32_t> objects);
 

@@ -16,6 +16,21 @@ std::uint64_t total(const std::vector<std::uint32_t>& row) {
   return std::accumulate(row.begin(), row.end(), std::uint64_t{0});
 }
 
+// How many votes were right, and how many there were.
+struct Count {
+  std::uint64_t right = 0;
+  std::uint64_t all = 0;
+};
+
+Count counted(const Confusion& confusion) {
+  Count count;
+  for (std::size_t truth = 0; truth < confusion.size(); ++truth) {
+    count.right += confusion[truth][truth];
+    count.all += total(confusion[truth]);
+  }
+  return count;
+}
+
 Interval within_bounds(double low, double high) {
   return {std::clamp(low, 0.0, 1.0), std::clamp(high, 0.0, 1.0)};
 }
@@ -50,12 +65,7 @@ double mean_class_rate(const Confusion& confusion) {
 }
 
 double overall_rate(const Confusion& confusion) {
-  std::uint64_t right = 0;
-  std::uint64_t all = 0;
-  for (std::size_t truth = 0; truth < confusion.size(); ++truth) {
-    right += confusion[truth][truth];
-    all += total(confusion[truth]);
-  }
+  const auto [right, all] = counted(confusion);
   return all > 0 ? static_cast<double>(right) / static_cast<double>(all) : 0.0;
 }
 
@@ -73,12 +83,7 @@ Interval wilson_interval(std::uint64_t right, std::uint64_t all) {
 }
 
 Rate pooled_overall_rate(const Confusion& confusion) {
-  std::uint64_t right = 0;
-  std::uint64_t all = 0;
-  for (std::size_t truth = 0; truth < confusion.size(); ++truth) {
-    right += confusion[truth][truth];
-    all += total(confusion[truth]);
-  }
+  const auto [right, all] = counted(confusion);
   return {overall_rate(confusion), 0.0, wilson_interval(right, all)};
 }
 

@@ -223,7 +223,7 @@ Command add_classify(CLI::App& parent) {
       ->type_name("P");
   command->add_flag("--votes", arguments->votes, "Show what every judge said");
   arguments->run.add_to(*command);
-  return [arguments] { return run_classify(*arguments); };
+  return [arguments](TaskFarm&) { return run_classify(*arguments); };
 }
 
 }  // namespace spincat::app

@@ -145,7 +145,7 @@ Command add_evaluate(CLI::App& parent) {
   add_confidence_options(*command, *arguments);
   arguments->settings.add_to(*command);
   arguments->run.add_to(*command);
-  return [arguments] { return run_evaluate(*arguments); };
+  return [arguments](TaskFarm&) { return run_evaluate(*arguments); };
 }
 
 }  // namespace spincat::app

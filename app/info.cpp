@@ -42,7 +42,7 @@ Command add_info(CLI::App& parent) {
       "  spincat info furniture.spincat --json");
   command->add_option("file", arguments->file, "A model or an object")->type_name("FILE")->required();
   command->add_flag("--json", arguments->json, "Print JSON for programs");
-  return [arguments] { return run_info(*arguments); };
+  return [arguments](TaskFarm&) { return run_info(*arguments); };
 }
 
 }  // namespace spincat::app

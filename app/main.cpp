@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <functional>
+#include <memory>
 #include <new>
 #include <string_view>
 #include <utility>
@@ -17,7 +19,12 @@
 #include "commands.h"
 #include "interrupt.h"
 #include "messages.h"
+#include "ranks.h"
 #include "spincat/error.h"
+#include "spincat/parallel/for_each.h"
+#include "spincat/parallel/task_farm.h"
+#include "spincat/parallel/task_server.h"
+#include "spincat/pipeline/task_kinds.h"
 
 namespace {
 
@@ -45,7 +52,23 @@ int flush_output(int code) {
   return code;
 }
 
-int run(int argc, char** argv) {
+// The exit code, and one line on standard error for what went wrong.
+int report_errors(const std::function<int()>& body) {
+  try {
+    return body();
+  } catch (const InputError& error) {
+    return fail(error.what(), 2);
+  } catch (const Interrupted& interrupted) {
+    return fail("interrupted", 128 + interrupted.signal);
+  } catch (const std::bad_alloc&) {
+    return fail("not enough memory", 1);
+  } catch (const std::exception& error) {  // RunError, and whatever a library throws
+    return fail(error.what(), 1);
+  }
+}
+
+// On rank 0, where there are several.
+int run(int argc, char** argv, TaskFarm& farm) {
   CLI::App cli(
       "spincat learns object categories from 3D models by spin images and pairwise judges, and names new ones.",
       "spincat");
@@ -71,10 +94,22 @@ int run(int argc, char** argv) {
   }
   for (const auto& [name, command] : commands) {
     if (cli.got_subcommand(name)) {
-      return flush_output(command());
+      return flush_output(command(farm));
     }
   }
   return 2;
+}
+
+// Rank 0 runs the command; the others work for it and say nothing.
+int run_on_ranks(int argc, char** argv, const Launch& launch) {
+  const std::unique_ptr<Communicator> ranks = join_ranks(launch);
+  if (ranks->rank() == 0) {
+    TaskFarm farm(*ranks);
+    return report_errors([&] { return run(argc, argv, farm); });
+  }
+  const auto threads = [&](int requested) { return thread_count(requested, ranks->ranks_on_host()); };
+  serve(*ranks, pipeline_work(), threads, stop_if_interrupted);
+  return 0;
 }
 
 }  // namespace
@@ -83,15 +118,15 @@ int main(int argc, char** argv) {
   fill_closed_streams();
   catch_interrupts();
   keep_command_line(argc, argv);
-  try {
-    return run(argc, argv);
-  } catch (const InputError& error) {
-    return fail(error.what(), 2);
-  } catch (const Interrupted& interrupted) {
-    return fail("interrupted", 128 + interrupted.signal);
-  } catch (const std::bad_alloc&) {
-    return fail("not enough memory", 1);
-  } catch (const std::exception& error) {  // RunError, and whatever a library throws
-    return fail(error.what(), 1);
+  const Launch launch = read_launch();
+  if (launch.number > 0) {
+    try {  // what goes wrong here, rank 0 learns from our silence
+      return run_on_ranks(argc, argv, launch);
+    } catch (const Interrupted& interrupted) {
+      return 128 + interrupted.signal;
+    } catch (const std::exception&) {
+      return 1;
+    }
   }
+  return report_errors([&] { return run_on_ranks(argc, argv, launch); });
 }

@@ -56,6 +56,28 @@ void RunOptions::add_to(CLI::App& command) {
   command.add_flag("--quiet", quiet, "No progress and no notes on standard error, only errors");
 }
 
+void RunOptions::add_farm_options_to(CLI::App& command) {
+  const std::string group = "Many processes (mpirun, srun)";
+  command
+      .add_option("--journal", journal,
+                  "Keep finished tasks in this file, so that the same command goes on where it was ended; none: keep "
+                  "none (under mpirun and srun: OUTPUT.journal)")
+      ->group(group)
+      ->type_name("FILE");
+  command
+      .add_option("--divide", divide,
+                  "sums: whoever makes spin images encodes them, too; images: they are returned, and the first process "
+                  "encodes (the paper's way, for comparison)")
+      ->group(group)
+      ->check(CLI::IsMember({"sums", "images"}))
+      ->type_name("WHAT")
+      ->capture_default_str();
+}
+
+Division RunOptions::division() const {
+  return divide == "images" ? Division::images : Division::sums;
+}
+
 int RunOptions::thread_count() const {
   return spincat::thread_count(threads);
 }

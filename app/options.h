@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "spincat/dataset/dataset.h"
+#include "spincat/pipeline/division.h"
 #include "spincat/pipeline/settings.h"
 
 namespace spincat::app {
@@ -18,9 +19,14 @@ struct RunOptions {
   int threads = 0;
   bool json = false;
   bool quiet = false;
+  std::optional<std::filesystem::path> journal;  // empty path: none
+  std::string divide = "sums";
 
   void add_to(CLI::App& command);
+  // For commands whose work is shared out to other ranks.
+  void add_farm_options_to(CLI::App& command);
   int thread_count() const;
+  Division division() const;
 };
 
 // What to learn from.

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -7,13 +8,16 @@
 #include <vector>
 
 #include "commands.h"
+#include "farm_run.h"
 #include "options.h"
 #include "progress_bar.h"
+#include "spincat/encode/encoding.h"
 #include "spincat/error.h"
 #include "spincat/io/file.h"
 #include "spincat/io/npy.h"
 #include "spincat/io/output_file.h"
 #include "spincat/io/read_object.h"
+#include "spincat/pipeline/dense_object.h"
 #include "spincat/pipeline/describe.h"
 #include "spincat/pipeline/setting_names.h"
 #include "spincat/report/json.h"
@@ -32,6 +36,7 @@ struct SpinArguments {
   fs::path points_output;
   SettingsArguments settings;
   std::string convention = "johnson";
+  std::string encoding;  // of a feature vector instead of the images; empty: images
   RunOptions run;
   int sheet = 64;
 };
@@ -80,37 +85,50 @@ void write_points(const fs::path& file, const OrientedPoints& points, const Prep
   out.commit();
 }
 
-void write_images(const SpinArguments& arguments, const OrientedPoints& surface, const OrientedPoints& spin_points,
-                  const SpinImageParams& params) {
-  const SpinImageShape shape = params.shape();
-  std::vector<std::size_t> sizes = {spin_points.size()};
+// The images as they come, in their order.
+void write_images(const SpinArguments& arguments, TaskFarm& farm, const DenseObject& object, ProgressBar& bar) {
+  const SpinImageShape shape = object.params.shape();
+  std::vector<std::size_t> sizes = {object.spin_points.size()};
   if (shape.channels > 1) {
     sizes.push_back(shape.channels);
   }
   sizes.insert(sizes.end(), {shape.rows, shape.columns});
   OutputFile out(arguments.output);
   out.write(npy_header(sizes));
-  ProgressBar bar(arguments.run);
-  const auto write_block = [&](const SpinImageBlock& block) {
-    out.write(as_bytes(block.images.values()));
-    bar.update("making spin images", block.first + block.images.count(), spin_points.size());
-  };
-  make_spin_images(surface, spin_points, params, write_block, arguments.run.thread_count());
+  const auto tick = [&](std::size_t done) { bar.update("making spin images", done, object.spin_points.size()); };
+  const auto write = [&](std::size_t, std::span<const float> images) { out.write(as_bytes(images)); };
+  if (farm.shares_out()) {
+    make_spin_images(farm, object, write, tick);
+  } else {
+    const auto write_block = [&](const SpinImageBlock& block) {
+      write(block.first, block.images.values());
+      tick(block.first + block.images.count());
+    };
+    make_spin_images(object.surface, object.spin_points, object.params, write_block, farm.threads());
+  }
   out.commit();
 }
 
-void write_sheet(const SpinArguments& arguments, const OrientedPoints& surface, const OrientedPoints& spin_points,
-                 const SpinImageParams& params) {
-  const OrientedPoints chosen = evenly_chosen(spin_points, static_cast<std::size_t>(arguments.sheet));
-  SpinImages images(chosen.size(), params.shape());
-  ProgressBar bar(arguments.run);
+// One feature vector of all images.
+void write_features(const SpinArguments& arguments, TaskFarm& farm, const DenseObject& object, ProgressBar& bar) {
+  const auto tick = [&](std::size_t done) { bar.update("making spin images", done, object.spin_points.size()); };
+  const FeatureVector features = encode_object(farm, object, arguments.encoding, arguments.run.division(), tick);
+  OutputFile out(arguments.output);
+  out.write(npy_header(std::array<std::size_t, 1>{features.values.size()}));
+  out.write(as_bytes(features.values));
+  out.commit();
+}
+
+void write_sheet(const SpinArguments& arguments, const DenseObject& object, int threads, ProgressBar& bar) {
+  const OrientedPoints chosen = evenly_chosen(object.spin_points, static_cast<std::size_t>(arguments.sheet));
+  SpinImages images(chosen.size(), object.params.shape());
   const auto keep = [&](const SpinImageBlock& block) {
     for (std::size_t k = 0; k < block.images.count(); ++k) {
       std::ranges::copy(block.images.image(k), images.image(block.first + k).begin());
     }
     bar.update("making spin images", block.first + block.images.count(), chosen.size());
   };
-  make_spin_images(surface, chosen, params, keep, arguments.run.thread_count());
+  make_spin_images(object.surface, chosen, object.params, keep, threads);
   OutputFile out(arguments.output);
   out.write(encode_png(contact_sheet(images)));
   out.commit();
@@ -140,33 +158,60 @@ void check_outputs(const SpinArguments& arguments) {
   check_writable(arguments.points_output);
 }
 
-int run_spin(const SpinArguments& arguments) {
-  const Settings settings = spin_settings(arguments);
+// Before the work, not after it.
+void check_arguments(const SpinArguments& arguments, const Settings& settings) {
   const bool png = ends_in(arguments.output, ".png");
   if (!png && !ends_in(arguments.output, ".npy")) {
     throw InputError(arguments.output.string(), "expected a name that ends in .npy or .png");
   }
   check_outputs(arguments);
+  if (arguments.encoding.empty()) {
+    return;
+  }
+  if (png) {
+    throw InputError(arguments.output.string(), "a feature vector (--encode) needs a name that ends in .npy");
+  }
+  make_encoding(arguments.encoding)->check(settings.spin);
+}
+
+RunIdentity identity_of(const SpinArguments& arguments, const Settings& settings) {
+  FilesIdentity data;
+  data.add(arguments.file);
+  const std::string more = fmt::format("{} {}", arguments.encoding, arguments.settings.spin_points.has_value());
+  return {settings_identity("spin", settings, more), data.text()};
+}
+
+int run_spin(const SpinArguments& arguments, TaskFarm& farm) {
+  const Settings settings = spin_settings(arguments);
+  check_arguments(arguments, settings);
+  FarmRun run(farm, arguments.run);
   const auto [object, params] = prepared_object(arguments, settings);
   const bool chosen = arguments.settings.spin_points.has_value();
   const OrientedPoints& spin_points = chosen ? object.spin_points : object.surface;
-  if (png) {
-    write_sheet(arguments, object.surface, spin_points, params);
-  } else {
-    write_images(arguments, object.surface, spin_points, params);
+  const DenseObject dense{object.surface, spin_points, params};
+  {
+    ProgressBar bar(arguments.run);
+    if (ends_in(arguments.output, ".png")) {
+      write_sheet(arguments, dense, farm.threads(), bar);
+    } else {
+      run.keep_journal(arguments.output, identity_of(arguments, settings));
+      arguments.encoding.empty() ? write_images(arguments, farm, dense, bar)
+                                 : write_features(arguments, farm, dense, bar);
+    }
   }
   if (!arguments.points_output.empty()) {
     write_points(arguments.points_output, spin_points, object);
   }
+  run.finish();
   if (arguments.output == "/dev/stdout") {
     return 0;  // the result went there; nothing must follow it
   }
   if (arguments.run.json) {
     fmt::print("{}\n", spin_json(arguments.output.string(), spin_points.size(), params, object));
   } else {
-    fmt::print("wrote {}: {} spin points, images of {} x {} from {} surface points\n",
-               printable(arguments.output.string()), spin_points.size(), params.shape().rows, params.shape().columns,
-               object.surface.size());
+    fmt::print("wrote {}: {}{} spin points, images of {} x {} from {} surface points\n",
+               printable(arguments.output.string()), arguments.encoding.empty() ? "" : "one feature vector of ",
+               spin_points.size(), params.shape().rows, params.shape().columns, object.surface.size());
   }
   return 0;
 }
@@ -198,9 +243,14 @@ Command add_spin(CLI::App& parent) {
   command->add_option("--convention", arguments->convention, "johnson or pcl")
       ->type_name("NAME")
       ->capture_default_str();
+  command
+      ->add_option("--encode", arguments->encoding,
+                   fmt::format("Write one feature vector of all images instead: {}", fmt::join(encoding_names(), ", ")))
+      ->type_name("NAME");
   arguments->settings.add_spin_options_to(*command);
   arguments->run.add_to(*command);
-  return [arguments] { return run_spin(*arguments); };
+  arguments->run.add_farm_options_to(*command);
+  return [arguments](TaskFarm& farm) { return run_spin(*arguments, farm); };
 }
 
 }  // namespace spincat::app

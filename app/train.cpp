@@ -6,10 +6,12 @@
 #include <memory>
 
 #include "commands.h"
+#include "farm_run.h"
 #include "messages.h"
 #include "options.h"
 #include "progress_bar.h"
 #include "spincat/io/file.h"
+#include "spincat/parallel/task_farm.h"
 #include "spincat/pipeline/stopwatch.h"
 #include "spincat/report/json.h"
 #include "spincat/report/text.h"
@@ -46,17 +48,29 @@ Dataset dataset_to_learn_from(const TrainArguments& arguments) {
   return part;
 }
 
-int run_train(const TrainArguments& arguments) {
+RunIdentity identity_of(const Dataset& dataset, const Settings& settings, bool strict) {
+  FilesIdentity data;
+  for (const DatasetObject& object : dataset.objects) {
+    data.add(object.file);
+  }
+  return {settings_identity("train", settings, strict ? "strict" : ""), data.text()};
+}
+
+int run_train(const TrainArguments& arguments, TaskFarm& farm) {
   const Settings settings = arguments.settings.settings();
   check_writable(arguments.output);  // before the work, not after it
   const Dataset dataset = dataset_to_learn_from(arguments);
+  FarmRun run(farm, arguments.run);
+  run.keep_journal(arguments.output, identity_of(dataset, settings, arguments.dataset.strict));
   Stopwatch watch;
   TrainResult result;
   {
     ProgressBar bar(arguments.run);
-    result = train(dataset, settings, {arguments.dataset.strict, arguments.run.thread_count()}, bar.callback());
+    const TrainOptions options{arguments.dataset.strict, farm.threads(), &farm, arguments.run.division()};
+    result = train(dataset, settings, options, bar.callback());
   }
   write_model(arguments.output, result.model);
+  run.finish();
   report_skipped(result.skipped, arguments.run);
   if (arguments.output == "/dev/stdout") {
     return 0;  // the model went there; nothing must follow it
@@ -83,7 +97,8 @@ Command add_train(CLI::App& parent) {
   command->add_flag("--all", arguments->all, "Learn from the objects of an official test split, too");
   arguments->settings.add_to(*command);
   arguments->run.add_to(*command);
-  return [arguments] { return run_train(*arguments); };
+  arguments->run.add_farm_options_to(*command);
+  return [arguments](TaskFarm& farm) { return run_train(*arguments, farm); };
 }
 
 }  // namespace spincat::app

@@ -15,6 +15,11 @@ packages_build=(
   zlib1g-dev           # checksums
 )
 
+packages_mpi=(
+  libopenmpi-dev openmpi-bin  # many processes: mpirun, srun --mpi=pmix (docs/cluster.md)
+  pkgconf                     # finds every MPI that is installed
+)
+
 packages_demo=(
   sweethome3d-furniture  # 820 furniture models, CC0 and CC-BY 3.0
   unzip
@@ -22,6 +27,9 @@ packages_demo=(
 
 packages_test=(
   libgtest-dev
+  libopenmpi-dev openmpi-bin pkgconf libmpich-dev mpich  # the command under both makes of MPI
+  openssh-server openssh-client iproute2                 # several hosts, as network namespaces
+  slurm-wlm munge                                        # and under srun
 )
 
 packages_bench=(

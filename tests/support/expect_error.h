@@ -1,6 +1,8 @@
 // The whole message of an error, so that tests compare what a user reads.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <string>
 
 #include "spincat/error.h"
@@ -15,6 +17,17 @@ std::string input_error(Call call) {
     return error.what();
   }
   return "no error";
+}
+
+// Expects an error of a type whose line contains a text.
+template <class Expected, class Call>
+void expect_error(Call call, const std::string& text) {
+  try {
+    call();
+    ADD_FAILURE() << "no error where one with '" << text << "' is expected";
+  } catch (const Expected& error) {
+    EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace spincat::test

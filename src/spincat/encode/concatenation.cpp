@@ -32,6 +32,8 @@ class Concatenation final : public Encoding {
  public:
   std::string_view name() const override { return "concatenation"; }
 
+  bool pools() const override { return false; }
+
   void check(const SpinImageParams&) const override {}  // any image will do
 
   std::unique_ptr<ObjectSums> begin(const OrientedPoints&, const OrientedPoints& spin_points,

@@ -2,7 +2,7 @@
 //
 // Every encoding works in two steps, so that images can be made and forgotten block by block, on any thread or machine:
 // `accumulate` adds what a block of images contributes to a row of sums, and `finish` turns the sums into the feature
-// vector. Sums of blocks are added in the order of the blocks, which makes the result the same wherever they were made.
+// vector. block_sums.h adds the sums of blocks in an order that does not depend on where they were made.
 #pragma once
 
 #include <cstddef>
@@ -24,6 +24,9 @@ class Encoding {
 
   // As in settings and model files.
   virtual std::string_view name() const = 0;
+
+  // Whether the number of sums is the same for any number of spin points.
+  virtual bool pools() const { return true; }
 
   // Throws InputError when this encoding cannot work on such images.
   virtual void check(const SpinImageParams& params) const = 0;

@@ -1,6 +1,7 @@
 #include "spincat/parallel/for_each.h"
 
 #include <sched.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -10,15 +11,28 @@
 
 namespace spincat {
 
-int thread_count(int requested) {
-  if (requested > 0) {
-    return requested;
-  }
+int allowed_processors() {
   cpu_set_t allowed;
   if (sched_getaffinity(0, sizeof(allowed), &allowed) != 0) {
     return 1;
   }
   return std::max(1, CPU_COUNT(&allowed));
+}
+
+int all_processors() {
+  return std::max(1, static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN)));
+}
+
+int thread_count(int requested) {
+  return requested > 0 ? requested : allowed_processors();
+}
+
+int thread_count(int requested, int ranks_on_host) {
+  if (requested > 0) {
+    return requested;
+  }
+  const int allowed = allowed_processors();
+  return allowed < all_processors() ? allowed : std::max(1, allowed / std::max(1, ranks_on_host));
 }
 
 void for_each_index(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {

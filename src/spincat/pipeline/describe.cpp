@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "spincat/encode/block_sums.h"
 #include "spincat/encode/encoding.h"
 #include "spincat/geometry/random.h"
 #include "spincat/pipeline/stopwatch.h"
@@ -109,14 +110,14 @@ Preparation prepare_part(const Object& shape, const Settings& settings, const Pa
 FeatureVector encoded(const Preparation& preparation, const Encoding& encoding, Stopwatch& watch, StageSeconds& spent) {
   const auto& [prepared, params] = preparation;
   const auto object_sums = encoding.begin(prepared.surface, prepared.spin_points, params);
-  std::vector<double> sums(object_sums->size(), 0.0);
+  BlockSums sums(*object_sums);
   spent.encode += watch.lap();
   make_spin_images(prepared.surface, prepared.spin_points, params, [&](const SpinImageBlock& block) {
     spent.spin += watch.lap();
-    object_sums->accumulate(block, sums);
+    sums.add(block);
     spent.encode += watch.lap();
   });
-  FeatureVector features = object_sums->finish(sums);
+  FeatureVector features = object_sums->finish(sums.finish().total());
   spent.encode += watch.lap();
   return features;
 }
@@ -138,7 +139,8 @@ Preparation prepare_object(const Object& object, const Settings& settings, int c
   return prepare_part(changed ? *changed : object, settings, parts_of(settings)[0], seed_of(settings, copy, 0));
 }
 
-FeatureVector describe(const Object& object, const Settings& settings, int copy, StageSeconds* seconds) {
+FeatureVector describe(const Object& object, const Settings& settings, int copy, StageSeconds* seconds,
+                       const EncodePrepared& elsewhere) {
   StageSeconds spent;
   Stopwatch watch;
   const std::optional<Object> changed = shape_of_copy(object, settings, copy);
@@ -152,7 +154,8 @@ FeatureVector describe(const Object& object, const Settings& settings, int copy,
     for (int draw = 0; draw < settings.draws; ++draw) {
       const Preparation preparation = prepare_part(shape, settings, part, seed_of(settings, copy, draw));
       spent.prepare += watch.lap();
-      FeatureVector drawn = encoded(preparation, *encoding, watch, spent);
+      FeatureVector drawn = elsewhere ? elsewhere(preparation) : encoded(preparation, *encoding, watch, spent);
+      spent.spin += watch.lap();  // elsewhere: with encoding, they cannot be told apart
       if (draw == 0) {
         mean = std::move(drawn);
       } else {

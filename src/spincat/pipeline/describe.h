@@ -1,6 +1,8 @@
 // One object to its feature vector: prepare, spin, encode.
 #pragma once
 
+#include <functional>
+
 #include "spincat/encode/feature_vector.h"
 #include "spincat/geometry/object.h"
 #include "spincat/pipeline/settings.h"
@@ -19,17 +21,22 @@ struct StageSeconds {
   StageSeconds& operator+=(const StageSeconds& other);
 };
 
-// The feature vector of an object, or of its training copy number `copy`, 1 to settings.training_views() - 1: the first
-// settings.copies are stretched, those after them are stretched and turned into clouds of settings.prepare.points
-// points, every other one exact and every other one with noise of 1 % of the diameter. Deterministic. Adds the time
-// spent to `seconds` where one is given. Throws InputError (without a file name) when the object has no extent.
-FeatureVector describe(const Object& object, const Settings& settings, int copy = 0, StageSeconds* seconds = nullptr);
-
 // What an object's spin images are made of, and how: parameters in the unit of the prepared points.
 struct Preparation {
   PreparedObject object;
   SpinImageParams params;
 };
+
+// Makes the feature vector of prepared points somewhere else: dense_object.h shares them out.
+using EncodePrepared = std::function<FeatureVector(const Preparation&)>;
+
+// The feature vector of an object, or of its training copy number `copy`, 1 to settings.training_views() - 1: the first
+// settings.copies are stretched, those after them are stretched and turned into clouds of settings.prepare.points
+// points, every other one exact and every other one with noise of 1 % of the diameter. On this thread unless
+// `elsewhere` says otherwise. Deterministic. Adds the time spent to `seconds` where one is given. Throws InputError
+// (without a file name) when the object has no extent.
+FeatureVector describe(const Object& object, const Settings& settings, int copy = 0, StageSeconds* seconds = nullptr,
+                       const EncodePrepared& elsewhere = {});
 
 // The first stage of describe by itself, for those who want the spin images: of an object, or of its training copy
 // number `copy`; the first part's first draw. Deterministic. Throws as describe does, and when the bin size is out of

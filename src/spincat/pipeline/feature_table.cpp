@@ -4,46 +4,14 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
-#include <mutex>
+#include <filesystem>
 #include <utility>
 
 #include "spincat/error.h"
-#include "spincat/io/read_object.h"
-#include "spincat/parallel/for_each.h"
-#include "spincat/pipeline/stopwatch.h"
+#include "spincat/pipeline/describe_tasks.h"
 
 namespace spincat {
 namespace {
-
-// What became of one object of the data set.
-struct Described {
-  std::vector<FeatureVector> features;  // itself and its copies; empty when it could not be read
-  std::string problem;
-  StageSeconds seconds;
-};
-
-// `between_copies` is called after each copy: an interruption need not wait for all copies of a dense scan.
-Described describe_object(const DatasetObject& entry, const Settings& settings, bool strict,
-                          const std::function<void()>& between_copies) {
-  Described result;
-  try {
-    Stopwatch watch;
-    const Object object = read_object(entry.file);
-    result.seconds.read = watch.lap();
-    for (int copy = 0; copy < settings.training_views(); ++copy) {
-      result.features.push_back(describe(object, settings, copy, &result.seconds));
-      between_copies();
-    }
-  } catch (const InputError& error) {
-    if (strict) {
-      throw InputError(entry.file.string(), error.problem());
-    }
-    result.features.clear();
-    result.problem = error.problem();
-  }
-  return result;
-}
 
 // Concatenated images are as many as the spin points: an object with fewer points than the others (a small cloud whose
 // points are not repeated) cannot be compared with them.
@@ -168,30 +136,37 @@ std::span<const float> FeatureTable::features_of(std::uint32_t object) const {
   return {features.row(row).data(), static_cast<std::size_t>(features.cols())};
 }
 
-FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, bool strict, int threads,
-                              const Progress& progress) {
+FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, bool strict, TaskFarm& farm,
+                              Division division, const Progress& progress) {
   settings.validate();
   if (strict && !dataset.skipped.empty()) {
     throw InputError(dataset.skipped.front().file.string(), dataset.skipped.front().reason);
   }
   std::vector<Described> described(dataset.objects.size());
-  std::mutex mutex;
-  std::size_t done = 0;
-  const auto report = [&](std::size_t newly_done) {
-    const std::lock_guard lock(mutex);
-    done += newly_done;
+  const DescribeJob job{dataset.objects.size(),
+                        [&](std::size_t i) -> const std::filesystem::path& { return dataset.objects[i].file; },
+                        settings, settings.training_views(), division};
+  const auto keep = [&](std::size_t i, Described one) {
+    if (strict && one.features.empty()) {
+      throw InputError(dataset.objects[i].file.string(), one.problem);
+    }
+    described[i] = std::move(one);
+  };
+  describe_files(farm, job, keep, [&](std::size_t done) {
     if (progress) {
       progress("describing objects", done, dataset.objects.size());
     }
-  };
-  for_each_index(dataset.objects.size(), threads, [&](std::size_t i) {
-    described[i] = describe_object(dataset.objects[i], settings, strict, [&] { report(0); });
-    report(1);
   });
   leave_out_shorter(dataset, strict, described);
   FeatureTable table = collect(dataset, std::move(described), settings);
   check_categories(table, dataset.name);
   return table;
+}
+
+FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, bool strict, int threads,
+                              const Progress& progress) {
+  OwnFarm own(threads);
+  return describe_dataset(dataset, settings, strict, own.farm(), Division::sums, progress);
 }
 
 }  // namespace spincat

@@ -9,10 +9,13 @@
 #include "spincat/dataset/dataset.h"
 #include "spincat/judge/gram.h"
 #include "spincat/pipeline/describe.h"
+#include "spincat/pipeline/division.h"
 #include "spincat/pipeline/progress.h"
 #include "spincat/pipeline/settings.h"
 
 namespace spincat {
+
+class TaskFarm;
 
 // Objects that could be read, and their features: row i * rows_per_object is object i itself, the rows after it are its
 // stretched training copies.
@@ -38,9 +41,14 @@ struct FeatureTable {
   std::span<const float> features_of(std::uint32_t object) const;  // of the object itself
 };
 
-// Reads and describes every object of the data set once, with its copies. The result does not depend on `threads`.
+// Reads and describes every object of the data set once, with its copies, on all threads and ranks of the farm. The
+// result does not depend on these, nor on the division.
 // Objects that cannot be read are left out and listed with their reason; with `strict` the first of them is thrown as
 // an InputError instead. Throws InputError when fewer than two categories are left.
+FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, bool strict, TaskFarm& farm,
+                              Division division, const Progress& progress);
+
+// The same on so many threads of this process.
 FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, bool strict, int threads,
                               const Progress& progress);
 

@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "spincat/parallel/task_farm.h"
 #include "spincat/pipeline/feature_table.h"
 #include "spincat/pipeline/stopwatch.h"
 #include "spincat/pipeline/teach.h"
@@ -11,7 +12,9 @@ namespace spincat {
 TrainResult train(const Dataset& dataset, const Settings& settings, const TrainOptions& options,
                   const Progress& progress) {
   // Describe every object and its stretched copies once.
-  const FeatureTable table = describe_dataset(dataset, settings, options.strict, options.threads, progress);
+  OwnFarm own(options.threads);
+  TaskFarm& farm = options.farm != nullptr ? *options.farm : own.farm();
+  const FeatureTable table = describe_dataset(dataset, settings, options.strict, farm, options.division, progress);
   std::vector<std::uint32_t> objects(table.objects.size());
   std::iota(objects.begin(), objects.end(), 0U);
 

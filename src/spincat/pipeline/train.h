@@ -5,15 +5,20 @@
 
 #include "spincat/dataset/dataset.h"
 #include "spincat/pipeline/describe.h"
+#include "spincat/pipeline/division.h"
 #include "spincat/pipeline/model.h"
 #include "spincat/pipeline/progress.h"
 #include "spincat/pipeline/settings.h"
 
 namespace spincat {
 
+class TaskFarm;
+
 struct TrainOptions {
-  bool strict = false;  // an object that cannot be read ends the training instead of being left out
-  int threads = 1;      // 1 or more; never changes the result
+  bool strict = false;       // an object that cannot be read ends the training instead of being left out
+  int threads = 1;           // 1 or more; never changes the result
+  TaskFarm* farm = nullptr;  // does the work on its threads and ranks instead; never changes the result either
+  Division division = Division::sums;
 };
 
 struct TrainResult {

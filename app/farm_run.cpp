@@ -1,0 +1,68 @@
+#include "farm_run.h"
+
+#include <fmt/format.h>
+
+#include "messages.h"
+#include "ranks.h"
+#include "spincat/parallel/for_each.h"
+#include "spincat/parallel/task_farm.h"
+#include "spincat/pipeline/settings_json.h"
+
+namespace spincat::app {
+
+namespace fs = std::filesystem;
+
+FarmRun::FarmRun(TaskFarm& farm, const RunOptions& run) : farm_(farm), run_(run) {
+  const int ranks_on_host = farm.ranks_on_host();
+  const int threads = thread_count(run.threads, ranks_on_host);
+  farm.use_threads(threads, run.threads);
+  if (farm.ranks() > 1 && !run.quiet) {
+    for (const std::string& warning : placement_warnings(threads, ranks_on_host)) {
+      message(warning);
+    }
+  }
+}
+
+FarmRun::~FarmRun() {
+  farm_.use_journal(nullptr);
+}
+
+void FarmRun::keep_journal(const fs::path& output, const RunIdentity& identity) {
+  fs::path file;
+  if (run_.journal) {
+    file = *run_.journal == "none" ? fs::path() : *run_.journal;
+  } else if (farm_.ranks() > 1 && !output.empty()) {
+    std::error_code error;
+    const fs::file_status status = fs::status(output, error);
+    if (!fs::exists(status) || fs::is_regular_file(status)) {
+      file = output.string() + ".journal";
+    }
+  }
+  if (file.empty()) {
+    return;
+  }
+  // The other division cuts the work into other tasks.
+  journal_.emplace(file, RunIdentity{identity.settings + " " + run_.divide, identity.data});
+  farm_.use_journal(&*journal_);
+  if (journal_->size() > 0 && !run_.quiet) {
+    message(fmt::format("{}: going on after {} finished task{}", file.string(), journal_->size(),
+                        journal_->size() == 1 ? "" : "s"));
+  }
+}
+
+void FarmRun::finish() {
+  if (journal_) {
+    farm_.use_journal(nullptr);
+    journal_->remove();
+    journal_.reset();
+  }
+  if (farm_.ranks() > 1 && !run_.quiet) {
+    message(farm_.report().text());
+  }
+}
+
+std::string settings_identity(const std::string& command, const Settings& settings, const std::string& more) {
+  return fmt::format("spincat {} {} {} {}", SPINCAT_VERSION, command, settings_to_json(settings).dump(), more);
+}
+
+}  // namespace spincat::app

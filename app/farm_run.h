@@ -1,0 +1,42 @@
+// How a command uses the farm: its options, its journal, and what is told about it.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "options.h"
+#include "spincat/parallel/journal.h"
+#include "spincat/pipeline/settings.h"
+
+namespace spincat {
+class TaskFarm;
+}
+
+namespace spincat::app {
+
+class FarmRun {
+ public:
+  // Sets the threads, and warns of what ruins parallel runs.
+  FarmRun(TaskFarm& farm, const RunOptions& run);
+  ~FarmRun();
+  FarmRun(const FarmRun&) = delete;
+  FarmRun& operator=(const FarmRun&) = delete;
+
+  // Keeps finished tasks where the user wants them; with several ranks also where he did not say so: beside `output`,
+  // unless this is empty or no regular file. Throws as Journal does.
+  void keep_journal(const std::filesystem::path& output, const RunIdentity& identity);
+
+  // The result is where it should be: the journal goes, and one line tells how the work was shared out.
+  void finish();
+
+ private:
+  TaskFarm& farm_;
+  const RunOptions& run_;
+  std::optional<Journal> journal_;
+};
+
+// What decides about the results of a command: its name, settings, and whatever else it depends on.
+std::string settings_identity(const std::string& command, const Settings& settings, const std::string& more = "");
+
+}  // namespace spincat::app

@@ -1,0 +1,30 @@
+// The other processes of this run, where a launcher (mpirun, srun) has started several.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "spincat/parallel/communicator.h"
+
+namespace spincat::app {
+
+// What the environment says about how this process was started.
+struct Launch {
+  int processes = 1;             // of this run
+  int number = 0;                // of this process
+  std::string launcher;          // "mpirun (Open MPI)"; empty when there is none
+  std::vector<std::string> mpi;  // plug-ins to try, the likeliest first
+};
+
+Launch read_launch();
+
+// Joins the ranks of this run: loads MPI where a launcher has started several processes, and only then. The end of
+// the communicator ends MPI. Throws RunError when there is no MPI for this launcher, or when MPI sees another number of
+// processes than were started: each of them would do the whole work.
+std::unique_ptr<Communicator> join_ranks(const Launch& launch);
+
+// What ruins parallel runs: threads that share a processor without need. One line each.
+std::vector<std::string> placement_warnings(int threads, int ranks_on_host);
+
+}  // namespace spincat::app

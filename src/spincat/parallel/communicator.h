@@ -1,0 +1,58 @@
+// Ranks: the processes of one run, on one machine or many, and how they send each other bytes.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace spincat {
+
+// What was sent, or is to be: shared, so that the same bytes can be on their way to many ranks.
+using SharedBytes = std::shared_ptr<const std::string>;
+
+struct Message {
+  int from = 0;
+  int tag = 0;
+  std::string bytes;
+};
+
+// The processes that run together. There are no collective operations and nothing blocks: a rank that was lost can
+// never hold up another. Used by one thread of a process at a time. Header only, so that an MPI of any make can be
+// loaded as a plug-in (mpi_plugin.h).
+class Communicator {
+ public:
+  virtual ~Communicator() = default;
+
+  virtual int rank() const = 0;  // of this process, 0 to size() - 1
+  virtual int size() const = 0;
+  virtual int ranks_on_host() const = 0;           // how many ranks share this machine, this one included
+  virtual std::string implementation() const = 0;  // "Open MPI 4.1.4"; empty without MPI
+
+  // Sends bytes of any length; returns at once. Messages from one rank to another arrive in the order in which they
+  // were sent. `tag` is 0 to 100.
+  virtual void send(int to, int tag, SharedBytes bytes) = 0;
+
+  // The next message that has arrived completely, if any. Also moves on whatever is on its way.
+  virtual std::optional<Message> receive() = 0;
+
+  // How many messages are on their way, to or from this rank, as far as this rank knows.
+  virtual std::size_t under_way() const = 0;
+
+  // Call before the end when a rank was lost: what is on its way to or from it is given up, and leaving does not wait.
+  virtual void give_up(int rank) = 0;
+};
+
+// One process alone.
+class SerialCommunicator final : public Communicator {
+ public:
+  int rank() const override { return 0; }
+  int size() const override { return 1; }
+  int ranks_on_host() const override { return 1; }
+  std::string implementation() const override { return {}; }
+  void send(int, int, SharedBytes) override {}
+  std::optional<Message> receive() override { return std::nullopt; }
+  std::size_t under_way() const override { return 0; }
+  void give_up(int) override {}
+};
+
+}  // namespace spincat

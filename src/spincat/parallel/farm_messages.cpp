@@ -1,0 +1,88 @@
+#include "spincat/parallel/farm_messages.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+
+#include "spincat/parallel/packing.h"
+
+namespace spincat::farm {
+
+Greeting own_greeting() {
+  std::array<char, 256> host{};
+  if (gethostname(host.data(), host.size() - 1) != 0) {
+    host = {'?', '\0'};
+  }
+  struct stat processes = {};
+  const bool known = ::stat("/proc/self/ns/pid", &processes) == 0;
+  Greeting greeting;
+  greeting.program = "spincat " SPINCAT_VERSION;
+  greeting.host = host.data();
+  greeting.processes = greeting.host + "/" + std::to_string(known ? processes.st_ino : 0);
+  greeting.process = getpid();
+  return greeting;
+}
+
+std::string pack(const Greeting& greeting) {
+  return Packer()
+      .add(greeting.protocol)
+      .add(greeting.program)
+      .add(greeting.host)
+      .add(greeting.processes)
+      .add(greeting.process)
+      .take();
+}
+
+Greeting unpack_greeting(std::string_view bytes) {
+  Unpacker fields(bytes);
+  Greeting greeting;
+  greeting.protocol = fields.get<std::uint32_t>();
+  greeting.program = fields.get_text();
+  if (greeting.protocol != kProtocol) {
+    return greeting;  // nothing else is known to be where it is here
+  }
+  greeting.host = fields.get_text();
+  greeting.processes = fields.get_text();
+  greeting.process = fields.get<std::int64_t>();
+  return greeting;
+}
+
+std::string pack(const JobStart& start) {
+  return Packer().add(start.job).add(start.threads).add(start.kind).add(start.context).take();
+}
+
+JobStart unpack_job_start(std::string_view bytes) {
+  Unpacker fields(bytes);
+  JobStart start;
+  start.job = fields.get<std::uint32_t>();
+  start.threads = fields.get<std::int32_t>();
+  start.kind = fields.get_text();
+  start.context = fields.get_text();
+  return start;
+}
+
+std::string pack(std::uint32_t job, const TaskResult& result) {
+  return Packer()
+      .add(job)
+      .add(static_cast<std::uint64_t>(result.task))
+      .add(result.outcome)
+      .add(result.seconds)
+      .add(result.file)
+      .add(result.bytes)
+      .take();
+}
+
+TaskResult unpack_result(std::string_view bytes, std::uint32_t& job) {
+  Unpacker fields(bytes);
+  TaskResult result;
+  job = fields.get<std::uint32_t>();
+  result.task = fields.get<std::uint64_t>();
+  result.outcome = fields.get<TaskResult::Outcome>();
+  result.seconds = fields.get<double>();
+  result.file = fields.get_text();
+  result.bytes = fields.get_text();
+  return result;
+}
+
+}  // namespace spincat::farm

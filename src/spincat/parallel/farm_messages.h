@@ -1,0 +1,55 @@
+// Private to parallel: what rank 0 and the others say to each other.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "spincat/parallel/task.h"
+
+namespace spincat::farm {
+
+// Raised whenever a message changes: ranks of different versions must not work together.
+inline constexpr std::uint32_t kProtocol = 1;
+
+enum Tag : int {
+  kHello,     // to rank 0: Greeting
+  kJob,       // from rank 0: JobStart
+  kReady,     // to rank 0: job, threads
+  kRefusal,   // to rank 0: job, reason
+  kTask,      // from rank 0: job, task, its bytes
+  kResult,    // to rank 0: job, TaskResult
+  kBeat,      // to rank 0: still there
+  kEndOfJob,  // from rank 0: job
+  kQuit,      // from rank 0
+  kBye,       // to rank 0: the last word
+};
+
+// How a rank introduces itself.
+struct Greeting {
+  std::uint32_t protocol = kProtocol;
+  std::string program;  // name and version
+  std::string host;
+  std::string processes;  // which process numbers are valid together: host and PID namespace
+  std::int64_t process = 0;
+};
+
+struct JobStart {
+  std::uint32_t job = 0;
+  std::int32_t threads = 0;  // as asked for by the user; 0 means what is there
+  std::string_view kind;
+  std::string_view context;
+};
+
+Greeting own_greeting();
+std::string pack(const Greeting& greeting);
+Greeting unpack_greeting(std::string_view bytes);
+
+std::string pack(const JobStart& start);
+JobStart unpack_job_start(std::string_view bytes);  // points into `bytes`
+
+std::string pack(std::uint32_t job, const TaskResult& result);
+TaskResult unpack_result(std::string_view bytes, std::uint32_t& job);
+
+}  // namespace spincat::farm

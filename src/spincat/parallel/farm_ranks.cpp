@@ -1,0 +1,76 @@
+#include "spincat/parallel/farm_ranks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+namespace spincat {
+namespace {
+
+// The state of a process as the kernel tells it: 'R' running, 'T' stopped, 'Z' dead; 0 where there is no such process.
+char state_of(std::int64_t process) {
+  std::ifstream stream(fmt::format("/proc/{}/stat", process));
+  std::string line;
+  std::getline(stream, line);
+  const std::size_t name_end = line.rfind(')');  // the name may hold anything
+  return name_end == std::string::npos || name_end + 2 >= line.size() ? '\0' : line[name_end + 2];
+}
+
+bool is_in_our_sight(const farm::Greeting& greeting) {
+  static const farm::Greeting own = farm::own_greeting();
+  return greeting.process > 0 && greeting.processes == own.processes;
+}
+
+}  // namespace
+
+bool TaskFarm::Rank::is_gone() const {
+  if (!is_in_our_sight(greeting)) {
+    return false;
+  }
+  const char state = state_of(greeting.process);
+  return state == '\0' || state == 'Z' || state == 'X';
+}
+
+bool TaskFarm::Rank::should_be_given_up(Clock::duration waited) const {
+  if (is_gone()) {
+    return true;
+  }
+  if (is_in_our_sight(greeting)) {  // alive: at the end of a task, or stopped
+    const bool stopped = state_of(greeting.process) == 'T' && waited > std::chrono::milliseconds(500);
+    if (stopped) {
+      ::kill(static_cast<pid_t>(greeting.process), SIGKILL);
+    }
+    return stopped;
+  }
+  return waited > silence_deadline() * (lost ? 1 : 10);
+}
+
+std::chrono::duration<double> silence_deadline() {
+  const char* wanted = std::getenv("SPINCAT_DEADLINE");
+  const double seconds = wanted != nullptr ? std::atof(wanted) : 0.0;
+  return std::chrono::duration<double>(seconds > 0.0 ? seconds : 2.0);
+}
+
+void RunningMedian::add(double value) {
+  if (values_.size() < kKept) {
+    values_.push_back(value);
+  } else {
+    values_[next_++ % kKept] = value;
+  }
+}
+
+double RunningMedian::value() const {
+  if (values_.empty()) {
+    return 0.0;
+  }
+  std::vector<double> sorted = values_;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::ranges::nth_element(sorted, middle);
+  return *middle;
+}
+
+}  // namespace spincat

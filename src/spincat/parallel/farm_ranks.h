@@ -1,0 +1,61 @@
+// Private to parallel: what rank 0 knows of another rank, and how long tasks take.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <vector>
+
+#include "spincat/parallel/farm_messages.h"
+#include "spincat/parallel/task_farm.h"
+
+namespace spincat {
+
+struct TaskFarm::Rank {
+  farm::Greeting greeting;
+  int threads = 0;            // once it has said so
+  bool ready = false;         // for the job that is on
+  bool refused = false;       // cannot do the job that is on
+  bool lost = false;          // has been silent for too long
+  bool left = false;          // has said good-bye
+  bool given_up = false;      // nobody waits for it any more
+  std::size_t tasks = 0;      // that it has
+  double busy_seconds = 0.0;  // of its threads
+  Clock::time_point last_heard;
+
+  void start_job() {
+    ready = false;
+    refused = false;
+    tasks = 0;
+    last_heard = Clock::now();
+  }
+
+  void heard() {
+    last_heard = Clock::now();
+    lost = false;
+  }
+
+  // Whether its process has ended; false where that cannot be known, as of another host.
+  bool is_gone() const;
+
+  // At the end: whether waiting for it is in vain, so long after it was told. Kills it where it is stopped on this
+  // host.
+  bool should_be_given_up(Clock::duration waited) const;
+};
+
+// How long a rank may say nothing before it is taken to be lost: ten times the time between two signs of life. The
+// environment variable SPINCAT_DEADLINE gives another, in seconds.
+std::chrono::duration<double> silence_deadline();
+
+// The median of the last values.
+class RunningMedian {
+ public:
+  void add(double value);
+  double value() const;  // 0 where there is none
+
+ private:
+  static constexpr std::size_t kKept = 101;
+  std::vector<double> values_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace spincat

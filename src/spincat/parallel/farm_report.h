@@ -1,0 +1,27 @@
+// How the work was shared out.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace spincat {
+
+struct FarmReport {
+  struct Rank {
+    std::string host;
+    int threads = 0;            // 0 when it never took part
+    double busy_seconds = 0.0;  // added up over its threads
+    bool lost = false;
+  };
+
+  std::vector<Rank> ranks;
+  double seconds = 0.0;              // while there was work to share out
+  std::size_t handed_out_again = 0;  // tasks of ranks that were lost
+  std::size_t resumed = 0;           // tasks that the journal had
+
+  // One line: ranks, hosts, threads, how busy each was, what was lost.
+  std::string text() const;
+};
+
+}  // namespace spincat

@@ -1,0 +1,201 @@
+#include "spincat/parallel/journal.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "spincat/error.h"
+#include "spincat/parallel/packing.h"
+
+namespace spincat {
+namespace {
+
+// The layout: magic, settings, data, checksum of these; then for each task job, number, length, result, checksum.
+constexpr std::string_view kMagic = "SPINCAT-JOURNAL\x01";
+constexpr std::size_t kRecordHead = 3 * sizeof(std::uint64_t);
+constexpr std::size_t kChecksum = sizeof(std::uint32_t);
+
+std::uint32_t checksum_of(std::string_view bytes) {
+  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+std::string with_checksum(std::string bytes) {
+  const std::uint32_t checksum = checksum_of(bytes);
+  bytes.append(reinterpret_cast<const char*>(&checksum), kChecksum);
+  return bytes;
+}
+
+bool checks(std::string_view bytes) {
+  std::uint32_t stored = 0;
+  std::memcpy(&stored, bytes.data() + bytes.size() - kChecksum, kChecksum);
+  return stored == checksum_of(bytes.substr(0, bytes.size() - kChecksum));
+}
+
+// FNV-1a, from where another text ended.
+std::uint64_t mixed(std::uint64_t hash, std::string_view bytes) {
+  hash ^= 0xcbf29ce484222325U;
+  for (const char c : bytes) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  }
+  return hash;
+}
+
+std::string head_of(const RunIdentity& identity) {
+  return with_checksum(Packer().add(kMagic).add(identity.settings).add(identity.data).take());
+}
+
+}  // namespace
+
+Journal::Journal(std::filesystem::path file, const RunIdentity& identity) : file_(std::move(file)) {
+  descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) {
+    fail("cannot write the journal");
+  }
+  try {
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      throw RunError(file_.string(), "is in use by another run");
+    }
+    begin(identity);
+  } catch (...) {
+    ::close(descriptor_);
+    throw;
+  }
+}
+
+Journal::~Journal() {
+  ::close(descriptor_);
+}
+
+// Checks the head of a journal that is there, or writes that of a new one.
+void Journal::begin(const RunIdentity& identity) {
+  struct stat status = {};
+  if (::fstat(descriptor_, &status) != 0) {
+    fail("cannot read the journal");
+  }
+  const std::string head = head_of(identity);
+  const auto size = static_cast<std::uint64_t>(status.st_size);
+  const std::string there = read_at(0, std::min<std::uint64_t>(size, head.size())).value_or("");
+  if (there == head) {
+    read_records(head.size(), size);
+    return;
+  }
+  if (size >= head.size() || (size > 0 && head.compare(0, there.size(), there) != 0)) {
+    const std::string magic = Packer().add(kMagic).take();
+    const std::string settings = Packer().add(kMagic).add(identity.settings).take();
+    if (there.compare(0, magic.size(), magic) != 0) {
+      throw InputError(file_.string(), "is no journal of spincat");
+    }
+    throw InputError(file_.string(),
+                     fmt::format("is the journal of a run with other {}; give the same command as then, remove it, or "
+                                 "name another one by --journal",
+                                 there.compare(0, settings.size(), settings) != 0 ? "settings" : "data"));
+  }
+  if (::ftruncate(descriptor_, 0) != 0) {
+    fail("cannot write the journal");
+  }
+  write_all(head, 0);
+  end_ = head.size();
+}
+
+void Journal::read_records(std::uint64_t offset, std::uint64_t file_size) {
+  while (offset + kRecordHead + kChecksum <= file_size) {
+    const std::string head = read_at(offset, kRecordHead).value_or("");
+    if (head.size() < kRecordHead) {
+      break;
+    }
+    Unpacker fields(head);
+    const auto job = fields.get<std::uint64_t>();
+    const auto task = fields.get<std::uint64_t>();
+    const auto length = fields.get<std::uint64_t>();
+    if (length > file_size - offset - kRecordHead - kChecksum) {
+      break;
+    }
+    const auto whole = read_at(offset, kRecordHead + length + kChecksum);
+    if (!whole || !checks(*whole)) {
+      break;
+    }
+    records_[{job, task}] = {offset + kRecordHead, length};
+    offset += whole->size();
+  }
+  end_ = offset;
+  if (::ftruncate(descriptor_, static_cast<off_t>(end_)) != 0) {
+    fail("cannot write the journal");
+  }
+}
+
+std::optional<std::string> Journal::find(std::uint64_t job, std::uint64_t task) const {
+  const auto found = records_.find({job, task});
+  return found == records_.end() ? std::nullopt : read_at(found->second.offset, found->second.length);
+}
+
+void Journal::add(std::uint64_t job, std::uint64_t task, std::string_view result) {
+  const std::string record = with_checksum(Packer().add(job).add(task).add(result).take());
+  write_all(record, end_);
+  records_[{job, task}] = {end_ + kRecordHead, result.size()};
+  end_ += record.size();
+}
+
+void Journal::remove() {
+  ::unlink(file_.c_str());
+}
+
+void Journal::write_all(std::string_view bytes, std::uint64_t offset) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (written < 0 && errno == EINTR) {
+      continue;
+    }
+    if (written < 0) {
+      fail("cannot write the journal");
+    }
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+    offset += static_cast<std::uint64_t>(written);
+  }
+}
+
+std::optional<std::string> Journal::read_at(std::uint64_t offset, std::uint64_t length) const {
+  std::string bytes(length, '\0');
+  std::size_t got = 0;
+  while (got < length) {
+    const ssize_t read = ::pread(descriptor_, bytes.data() + got, length - got, static_cast<off_t>(offset + got));
+    if (read < 0 && errno == EINTR) {
+      continue;
+    }
+    if (read <= 0) {
+      return std::nullopt;
+    }
+    got += static_cast<std::size_t>(read);
+  }
+  return bytes;
+}
+
+void Journal::fail(const char* what) const {
+  throw RunError(file_.string(), fmt::format("{}: {}", what, std::generic_category().message(errno)));
+}
+
+std::uint64_t job_key(std::uint64_t place, std::string_view kind, std::uint64_t tasks) {
+  return mixed(mixed(0, kind), fmt::format("|{}|{}", place, tasks));
+}
+
+void FilesIdentity::add(const std::filesystem::path& file) {
+  struct stat status = {};
+  hash_ = mixed(hash_, file.string());
+  if (::stat(file.c_str(), &status) == 0) {
+    hash_ = mixed(hash_, fmt::format("|{}|{}.{}\n", status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec));
+  }
+  ++files_;
+}
+
+std::string FilesIdentity::text() const {
+  return fmt::format("{} files, {:016x}", files_, hash_);
+}
+
+}  // namespace spincat

@@ -1,0 +1,76 @@
+// A file of finished tasks: an interrupted run goes on where it was.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace spincat {
+
+// Which run a journal belongs to. Results are only good for the same program, command, settings and data.
+struct RunIdentity {
+  std::string settings;  // whatever decides about results
+  std::string data;      // names, sizes and times of the files worked on
+};
+
+// Append-only. Every record has a checksum; what a killed run left unfinished at the end is cut off. Tasks are known by
+// their job (job_key) and their number in it.
+class Journal {
+ public:
+  // Opens the journal at `file` or begins one. Throws InputError when the file is no journal or belongs to a run with
+  // other settings or data, RunError when it cannot be written or another run is using it.
+  Journal(std::filesystem::path file, const RunIdentity& identity);
+  ~Journal();
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
+
+  std::size_t size() const { return records_.size(); }  // finished tasks
+  bool has(std::uint64_t job, std::uint64_t task) const { return records_.contains({job, task}); }
+  std::optional<std::string> find(std::uint64_t job, std::uint64_t task) const;
+
+  // Keeps the result of a task. Throws RunError when it cannot be written.
+  void add(std::uint64_t job, std::uint64_t task, std::string_view result);
+
+  // Removes the file: the run is complete.
+  void remove();
+
+ private:
+  struct Place {
+    std::uint64_t offset;
+    std::uint64_t length;
+  };
+
+  void begin(const RunIdentity& identity);
+  void read_records(std::uint64_t offset, std::uint64_t file_size);
+  void write_all(std::string_view bytes, std::uint64_t offset);
+  std::optional<std::string> read_at(std::uint64_t offset, std::uint64_t length) const;
+  [[noreturn]] void fail(const char* what) const;
+
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+  std::uint64_t end_ = 0;  // of the last whole record
+  std::map<std::pair<std::uint64_t, std::uint64_t>, Place> records_;
+};
+
+// How a journal knows a job of a run: by its place in it, what it does, and into how many tasks it was cut. A run with
+// another number of ranks may cut otherwise, and then does not find these tasks.
+std::uint64_t job_key(std::uint64_t place, std::string_view kind, std::uint64_t tasks);
+
+// Names, sizes and times of last change of files, as one short text for RunIdentity::data. Files that are not there
+// count as such.
+class FilesIdentity {
+ public:
+  void add(const std::filesystem::path& file);
+  std::string text() const;
+
+ private:
+  std::uint64_t hash_ = 0;
+  std::size_t files_ = 0;
+};
+
+}  // namespace spincat

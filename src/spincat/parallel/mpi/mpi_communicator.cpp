@@ -1,0 +1,261 @@
+// The MPI plug-in: a Communicator over any MPI of version 3 or later.
+//
+// Only point-to-point messages that do not block. A large message goes as pieces of bounded size, the first of which
+// begins with the length of the whole; so no length overflows MPI's counts, and a rank that dies in the middle of a
+// message leaves nobody waiting inside MPI.
+#include <mpi.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <deque>
+#include <list>
+#include <utility>
+#include <vector>
+
+#include "spincat/parallel/communicator.h"
+#include "spincat/parallel/mpi/mpi_plugin.h"
+
+namespace spincat {
+namespace {
+
+constexpr std::size_t kPiece = std::size_t{1} << 20;
+constexpr std::size_t kHead = sizeof(std::uint64_t);  // of a message's first piece: the length of the whole
+constexpr int kPiecesAtOnce = 4;                      // to one rank
+
+// A message to one rank, piece by piece.
+struct Outgoing {
+  int tag = 0;
+  SharedBytes bytes;
+  std::string first;      // head and first bytes
+  std::size_t begun = 0;  // bytes of `bytes` that were handed to MPI
+  bool first_begun = false;
+};
+
+struct Piece {
+  MPI_Request request = MPI_REQUEST_NULL;
+  std::shared_ptr<const Outgoing> message;  // keeps the bytes
+};
+
+struct OutBox {
+  std::deque<std::shared_ptr<Outgoing>> waiting;
+  std::deque<Piece> under_way;
+};
+
+struct IncomingPiece {
+  MPI_Request request = MPI_REQUEST_NULL;
+  int tag = 0;
+  std::string bytes;
+};
+
+struct InBox {
+  std::deque<IncomingPiece> under_way;
+  bool in_message = false;
+  std::uint64_t length = 0;  // of the message that is being put together
+  Message message;
+};
+
+bool is_done(MPI_Request& request) {
+  int done = 0;
+  MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+  return done != 0;
+}
+
+class MpiCommunicator final : public Communicator {
+ public:
+  MpiCommunicator() {
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    MPI_Comm_size(MPI_COMM_WORLD, &size_);
+    MPI_Comm host = MPI_COMM_NULL;
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &host);
+    MPI_Comm_size(host, &ranks_on_host_);
+    MPI_Comm_free(&host);
+    out_.resize(static_cast<std::size_t>(size_));
+    in_.resize(static_cast<std::size_t>(size_));
+    given_up_.resize(static_cast<std::size_t>(size_), false);
+  }
+
+  // Ending MPI together waits for every rank: not where one was lost.
+  ~MpiCommunicator() override {
+    while (std::ranges::find(given_up_, true) == given_up_.end() && has_outgoing()) {
+      move_on();
+    }
+    MPI_Finalize();
+  }
+
+  int rank() const override { return rank_; }
+  int size() const override { return size_; }
+  int ranks_on_host() const override { return ranks_on_host_; }
+
+  std::string implementation() const override {
+    std::array<char, MPI_MAX_LIBRARY_VERSION_STRING> text{};
+    int length = 0;
+    MPI_Get_library_version(text.data(), &length);
+    std::string name(text.data(), static_cast<std::size_t>(length));
+    std::ranges::replace(name, '\t', ' ');
+    std::erase_if(name, [](char c) { return c == ':' || c == '\0'; });
+    return name.substr(0, name.find_first_of(",\n"));
+  }
+
+  void send(int to, int tag, SharedBytes bytes) override {
+    auto message = std::make_shared<Outgoing>();
+    message->tag = tag;
+    const std::uint64_t length = bytes->size();
+    const std::size_t in_first = std::min(bytes->size(), kPiece - kHead);
+    message->first.resize(kHead + in_first);
+    std::memcpy(message->first.data(), &length, kHead);
+    std::memcpy(message->first.data() + kHead, bytes->data(), in_first);
+    message->begun = in_first;
+    message->bytes = std::move(bytes);
+    out_[static_cast<std::size_t>(to)].waiting.push_back(std::move(message));
+    move_on_sending(to);
+  }
+
+  std::optional<Message> receive() override {
+    move_on();
+    for (int i = 0; i < size_; ++i) {
+      next_source_ = (next_source_ + 1) % size_;
+      if (std::optional<Message> message = assemble(next_source_)) {
+        return message;
+      }
+    }
+    return std::nullopt;
+  }
+
+  std::size_t under_way() const override {
+    std::size_t count = 0;
+    for (int r = 0; r < size_; ++r) {
+      const auto i = static_cast<std::size_t>(r);
+      if (!given_up_[i]) {
+        count += out_[i].waiting.size() + out_[i].under_way.size() + in_[i].under_way.size();
+      }
+    }
+    return count;
+  }
+
+  void give_up(int rank) override {
+    given_up_[static_cast<std::size_t>(rank)] = true;
+    out_[static_cast<std::size_t>(rank)].waiting.clear();
+  }
+
+ private:
+  bool has_outgoing() const {
+    return std::ranges::any_of(out_, [](const OutBox& box) { return !box.waiting.empty() || !box.under_way.empty(); });
+  }
+
+  void move_on() {
+    for (int r = 0; r < size_; ++r) {
+      move_on_sending(r);
+    }
+    start_receiving();
+  }
+
+  void move_on_sending(int to) {
+    OutBox& box = out_[static_cast<std::size_t>(to)];
+    while (!box.under_way.empty() && is_done(box.under_way.front().request)) {
+      box.under_way.pop_front();
+    }
+    while (!box.waiting.empty() && box.under_way.size() < kPiecesAtOnce) {
+      start_piece(to, box);
+    }
+  }
+
+  static void start_piece(int to, OutBox& box) {
+    const std::shared_ptr<Outgoing> message = box.waiting.front();
+    const char* from = message->first.data();
+    std::size_t size = message->first.size();
+    if (message->first_begun) {
+      from = message->bytes->data() + message->begun;
+      size = std::min(kPiece, message->bytes->size() - message->begun);
+      message->begun += size;
+    }
+    message->first_begun = true;
+    Piece& piece = box.under_way.emplace_back();
+    piece.message = message;
+    MPI_Isend(from, static_cast<int>(size), MPI_BYTE, to, message->tag, MPI_COMM_WORLD, &piece.request);
+    if (message->begun == message->bytes->size()) {
+      box.waiting.pop_front();
+    }
+  }
+
+  // Begins to receive every piece that has come.
+  void start_receiving() {
+    while (true) {
+      int there = 0;
+      MPI_Message message = MPI_MESSAGE_NULL;
+      MPI_Status status;
+      MPI_Improbe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &message, &status);
+      if (there == 0) {
+        return;
+      }
+      int size = 0;
+      MPI_Get_count(&status, MPI_BYTE, &size);
+      IncomingPiece& piece = in_[static_cast<std::size_t>(status.MPI_SOURCE)].under_way.emplace_back();
+      piece.tag = status.MPI_TAG;
+      piece.bytes.resize(static_cast<std::size_t>(size));
+      MPI_Imrecv(piece.bytes.data(), size, MPI_BYTE, &message, &piece.request);
+    }
+  }
+
+  // Puts together what has come from a rank, until a message is whole.
+  std::optional<Message> assemble(int from) {
+    InBox& box = in_[static_cast<std::size_t>(from)];
+    while (!box.under_way.empty() && is_done(box.under_way.front().request)) {
+      const IncomingPiece piece = std::move(box.under_way.front());
+      box.under_way.pop_front();
+      if (!box.in_message) {
+        std::memcpy(&box.length, piece.bytes.data(), kHead);
+        box.message = {from, piece.tag, {}};
+        box.message.bytes.reserve(box.length);
+        box.message.bytes.append(piece.bytes, kHead);
+      } else {
+        box.message.bytes += piece.bytes;
+      }
+      box.in_message = box.message.bytes.size() < box.length;
+      if (!box.in_message) {
+        return std::move(box.message);
+      }
+    }
+    return std::nullopt;
+  }
+
+  int rank_ = 0;
+  int size_ = 1;
+  int ranks_on_host_ = 1;
+  int next_source_ = 0;
+  std::vector<OutBox> out_;
+  std::vector<InBox> in_;
+  std::vector<bool> given_up_;
+};
+
+// Ranks of one host need no network: looking for one takes most of Open MPI's start. What the user has set stays.
+void choose_transport() {
+  const char* all = std::getenv("OMPI_COMM_WORLD_SIZE");
+  const char* here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
+  if (all != nullptr && here != nullptr && std::strcmp(all, here) == 0) {
+    setenv("OMPI_MCA_pml", "ob1", 0);
+    setenv("OMPI_MCA_btl", "self,vader", 0);
+  }
+}
+
+}  // namespace
+}  // namespace spincat
+
+extern "C" {
+
+int spincat_mpi_plugin_version() {
+  return spincat::kMpiPluginVersion;
+}
+
+spincat::Communicator* spincat_join_ranks() {
+  spincat::choose_transport();
+  int provided = 0;
+  if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS) {
+    return nullptr;
+  }
+  MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
+  return new spincat::MpiCommunicator();
+}
+}

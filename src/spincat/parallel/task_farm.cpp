@@ -1,0 +1,396 @@
+#include "spincat/parallel/task_farm.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <map>
+#include <memory>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "spincat/error.h"
+#include "spincat/parallel/farm_messages.h"
+#include "spincat/parallel/farm_ranks.h"
+#include "spincat/parallel/packing.h"
+#include "spincat/parallel/pause.h"
+#include "spincat/parallel/task_board.h"
+#include "spincat/parallel/thread_crew.h"
+
+namespace spincat {
+namespace {
+
+using Clock = TaskFarm::Clock;
+
+constexpr int kHere = 0;                // rank 0, as an owner of tasks
+constexpr int kMostRanksToWorkAt = 32;  // with more, rank 0 has enough to do with handing out and delivering
+constexpr std::size_t kTasksAhead = 2;  // a thread has this many tasks: one to do, one to go on with
+constexpr std::chrono::milliseconds kBetweenTicks(50);
+constexpr std::chrono::milliseconds kGreetingPatience(2000);
+constexpr std::chrono::milliseconds kStall(500);  // when we were away so long ourselves, others' silence means nothing
+
+SharedBytes shared(std::string bytes) {
+  return std::make_shared<const std::string>(std::move(bytes));
+}
+
+}  // namespace
+
+// One job from its first task to its last.
+class TaskFarm::Run {
+ public:
+  Run(TaskFarm& farm, const Job& job, const Tick& tick)
+      : farm_(farm), job_(job), tick_(tick), number_(++farm.job_), board_(job.tasks, window()) {
+    journal_job_ = job_key(farm_.journaled_jobs_++, job.kind, job.tasks);
+  }
+
+  // Whatever ends the job, nobody goes on with it.
+  ~Run() {
+    for (std::size_t r = 0; r < farm_.others_.size(); ++r) {
+      Rank& rank = farm_.others_[r];
+      rank.ready = false;
+      if (started_) {
+        say(r, farm::kEndOfJob, Packer().add(number_).take());
+      }
+    }
+  }
+
+  void do_all() {
+    const auto start = Clock::now();
+    begin();
+    Pause pause;
+    while (!board_.all_delivered()) {
+      const bool happened = take_here() | hear() | deliver() | hand_out();
+      mind_silence();
+      if (happened || Clock::now() - last_tick_ > kBetweenTicks) {
+        last_tick_ = Clock::now();
+        tick();
+      }
+      rest(pause.next(happened, farm_.ranks_.under_way() > 0));
+    }
+    const std::chrono::duration<double> spent = Clock::now() - start;
+    farm_.seconds_ += spent.count();
+  }
+
+ private:
+  // Bounds the results that wait for their turn, not the tasks under way: these are fewer.
+  std::size_t window() const {
+    return std::max<std::size_t>(64, 4 * kTasksAhead * static_cast<std::size_t>(farm_.threads_everywhere()));
+  }
+
+  void tick() const {
+    if (tick_) {
+      tick_(board_.delivered());
+    }
+  }
+
+  // What the journal has is done; the others are told about the job unless nothing is left for them.
+  void begin() {
+    std::size_t known = 0;
+    for (std::size_t task = 0; farm_.journal_ != nullptr && task < job_.tasks; ++task) {
+      if (farm_.journal_->has(journal_job_, task)) {
+        board_.finish(task, kHere);
+        ++known;
+      }
+    }
+    farm_.resumed_ += known;
+    started_ = known < job_.tasks && !farm_.others_.empty();
+    if (started_) {
+      const SharedBytes start = farm_.start_of(number_, job_.kind, job_.context);
+      for (std::size_t r = 0; r < farm_.others_.size(); ++r) {
+        farm_.ranks_.send(static_cast<int>(r) + 1, farm::kJob, start);
+        farm_.others_[r].start_job();
+      }
+    }
+  }
+
+  void say(std::size_t other, farm::Tag tag, std::string bytes) const {
+    farm_.ranks_.send(static_cast<int>(other) + 1, tag, shared(std::move(bytes)));
+  }
+
+  // Few ranks, or nobody else there.
+  bool works_here() const {
+    return farm_.ranks_.size() <= kMostRanksToWorkAt ||
+           std::ranges::all_of(farm_.others_, [](const Rank& rank) { return rank.lost || rank.refused; });
+  }
+
+  bool take_here() {
+    bool taken = false;
+    while (crew_) {
+      std::optional<TaskResult> result = crew_->take();
+      if (!result) {
+        break;
+      }
+      --here_;
+      farm_.busy_here_ += result->seconds;
+      accept(kHere, std::move(*result));
+      taken = true;
+    }
+    return taken;
+  }
+
+  bool hear() {
+    bool heard = false;
+    while (const std::optional<Message> message = farm_.ranks_.receive()) {
+      heard = true;
+      Rank& rank = farm_.others_[static_cast<std::size_t>(message->from) - 1];
+      rank.heard();
+      act_on(rank, *message);
+    }
+    return heard;
+  }
+
+  void act_on(Rank& rank, const Message& message) {
+    Unpacker fields(message.bytes);
+    switch (message.tag) {
+      case farm::kReady:
+        if (fields.get<std::uint32_t>() == number_) {
+          rank.ready = true;
+          rank.threads = fields.get<std::int32_t>();
+          board_.set_window(window());
+        }
+        break;
+      case farm::kRefusal:
+        rank.refused = rank.refused || fields.get<std::uint32_t>() == number_;
+        break;
+      case farm::kResult: {
+        std::uint32_t job = 0;
+        TaskResult result = farm::unpack_result(message.bytes, job);
+        rank.busy_seconds += result.seconds;
+        if (job == number_) {
+          rank.tasks -= rank.tasks > 0 ? 1 : 0;
+          accept(message.from, std::move(result));
+        }
+        break;
+      }
+      default:
+        farm_.greet(rank, message);
+        break;
+    }
+  }
+
+  // The first result of a task counts.
+  void accept(int from, TaskResult result) {
+    if (!board_.finish(result.task, from)) {
+      return;
+    }
+    median_.add(result.seconds);
+    if (farm_.journal_ != nullptr && result.outcome == TaskResult::Outcome::done) {
+      farm_.journal_->add(journal_job_, result.task, result.bytes);
+    }
+    waiting_.emplace(result.task, std::move(result));
+  }
+
+  bool deliver() {
+    bool delivered = false;
+    while (!board_.all_delivered() && board_.is_done(board_.delivered())) {
+      const std::size_t task = board_.delivered();
+      const auto found = waiting_.find(task);
+      if (found == waiting_.end()) {
+        job_.deliver(task, farm_.journal_->find(journal_job_, task).value_or(""));
+      } else {
+        TaskResult result = std::move(found->second);
+        waiting_.erase(found);
+        if (result.outcome != TaskResult::Outcome::done) {
+          result.throw_problem();
+        }
+        job_.deliver(task, std::move(result.bytes));
+      }
+      board_.deliver();
+      delivered = true;
+    }
+    return delivered;
+  }
+
+  bool hand_out() {
+    bool handed = false;
+    const auto now = Clock::now();
+    const TaskBoard::Seconds patience(std::max(1.0, 5.0 * median_.value()));
+    // In turns: the first tasks of a small job must not all queue up at one rank.
+    for (std::size_t turn = 0; turn < kTasksAhead; ++turn) {
+      for (std::size_t r = 0; r < farm_.others_.size(); ++r) {
+        Rank& rank = farm_.others_[r];
+        while (rank.ready && !rank.lost && rank.tasks < (turn + 1) * static_cast<std::size_t>(rank.threads)) {
+          const auto task = board_.next_for(static_cast<int>(r) + 1, now, patience);
+          if (!task) {
+            break;
+          }
+          say(r, farm::kTask, Packer().add(number_).add(std::uint64_t{*task}).take() + job_.task(*task));
+          ++rank.tasks;
+          handed = true;
+        }
+      }
+      handed = hand_out_here((turn + 1) * static_cast<std::size_t>(farm_.threads_), now, patience) || handed;
+    }
+    return handed;
+  }
+
+  bool hand_out_here(std::size_t most, Clock::time_point now, TaskBoard::Seconds patience) {
+    bool handed = false;
+    while (here_ < most && works_here()) {
+      const auto task = board_.next_for(kHere, now, patience);
+      if (!task) {
+        break;
+      }
+      if (!crew_) {
+        crew_ = std::make_unique<ThreadCrew>(job_.work, farm_.threads_);
+      }
+      crew_->give(*task, job_.task(*task));
+      ++here_;
+      handed = true;
+    }
+    return handed;
+  }
+
+  // Takes tasks back from ranks that say nothing.
+  void mind_silence() {
+    const auto now = Clock::now();
+    if (now - last_look_ < kBetweenTicks) {
+      return;
+    }
+    const bool stalled = now - last_look_ > kStall;
+    last_look_ = now;
+    for (std::size_t r = 0; started_ && r < farm_.others_.size(); ++r) {
+      Rank& rank = farm_.others_[r];
+      if (stalled) {
+        rank.last_heard = now;
+      }
+      if (!rank.lost && (now - rank.last_heard > silence_deadline() || rank.is_gone())) {
+        rank.lost = true;
+        rank.tasks = 0;
+        farm_.handed_out_again_ += board_.take_back(static_cast<int>(r) + 1);
+      }
+    }
+  }
+
+  void rest(std::chrono::microseconds pause) {
+    if (farm_.others_.empty()) {
+      pause = kBetweenTicks;  // a finished task wakes us
+    }
+    if (board_.all_delivered()) {
+      return;
+    }
+    if (pause.count() == 0) {
+      std::this_thread::yield();
+    } else if (crew_) {
+      crew_->wait(pause);
+    } else {
+      std::this_thread::sleep_for(pause);
+    }
+  }
+
+  TaskFarm& farm_;
+  const Job& job_;
+  const Tick& tick_;
+  const std::uint32_t number_;
+  std::uint64_t journal_job_ = 0;
+  bool started_ = false;  // the others were told
+  TaskBoard board_;
+  std::map<std::size_t, TaskResult> waiting_;  // for their turn
+  std::size_t here_ = 0;                       // tasks that our own threads have
+  RunningMedian median_;                       // seconds a task takes
+  Clock::time_point last_tick_;
+  Clock::time_point last_look_ = Clock::now();
+  std::unique_ptr<ThreadCrew> crew_;
+};
+
+TaskFarm::TaskFarm(Communicator& ranks) : ranks_(ranks), others_(static_cast<std::size_t>(ranks.size()) - 1) {}
+
+TaskFarm::~TaskFarm() {
+  dismiss();
+}
+
+void TaskFarm::use_threads(int here, int requested) {
+  threads_ = here;
+  requested_threads_ = requested;
+}
+
+int TaskFarm::threads_everywhere() const {
+  int threads = threads_;
+  for (const Rank& rank : others_) {
+    threads += rank.threads > 0 ? rank.threads : threads_;
+  }
+  return threads;
+}
+
+void TaskFarm::run(const Job& job, const Tick& tick) {
+  Run(*this, job, tick).do_all();
+}
+
+void TaskFarm::share(const std::string& kind, const std::function<std::string()>& context) {
+  if (others_.empty()) {
+    return;
+  }
+  const SharedBytes start = start_of(++job_, kind, context);
+  for (int r = 1; r < ranks_.size(); ++r) {
+    ranks_.send(r, farm::kJob, start);
+  }
+}
+
+SharedBytes TaskFarm::start_of(std::uint32_t job, const std::string& kind,
+                               const std::function<std::string()>& context) const {
+  const std::string bytes = context ? context() : std::string();
+  return shared(farm::pack(farm::JobStart{job, requested_threads_, kind, bytes}));
+}
+
+// Learns who a rank is, or that it has gone.
+void TaskFarm::greet(Rank& rank, const Message& message) {
+  if (message.tag == farm::kHello) {
+    rank.greeting = farm::unpack_greeting(message.bytes);
+    const farm::Greeting own = farm::own_greeting();
+    if (rank.greeting.protocol != own.protocol || rank.greeting.program != own.program) {
+      throw RunError(fmt::format("rank {} runs {}, rank 0 another version: all hosts need the same program",
+                                 message.from, rank.greeting.program));
+    }
+  } else if (message.tag == farm::kBye) {
+    rank.left = true;
+  }
+}
+
+void TaskFarm::dismiss() {
+  for (int r = 1; r < ranks_.size(); ++r) {
+    ranks_.send(r, farm::kQuit, shared({}));
+  }
+  const auto start = Clock::now();
+  Pause pause;
+  const auto here = [](const Rank& rank) { return !rank.left && !rank.given_up; };
+  while (std::ranges::any_of(others_, here)) {
+    bool heard = false;
+    while (const std::optional<Message> message = ranks_.receive()) {
+      heard = true;
+      Rank& rank = others_[static_cast<std::size_t>(message->from) - 1];
+      rank.lost = false;
+      rank.left = rank.left || message->tag == farm::kBye;
+    }
+    for (std::size_t r = 0; r < others_.size(); ++r) {
+      if (here(others_[r]) && others_[r].should_be_given_up(Clock::now() - start)) {
+        others_[r].given_up = true;
+        ranks_.give_up(static_cast<int>(r) + 1);
+      }
+    }
+    std::this_thread::sleep_for(pause.next(heard, false));
+  }
+}
+
+FarmReport TaskFarm::report() {
+  const auto start = Clock::now();
+  const auto unknown = [](const Rank& rank) { return rank.greeting.host.empty() && !rank.lost; };
+  while (std::ranges::any_of(others_, unknown) && Clock::now() - start < kGreetingPatience) {
+    if (const std::optional<Message> message = ranks_.receive()) {
+      greet(others_[static_cast<std::size_t>(message->from) - 1], *message);
+    } else {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+  FarmReport report;
+  report.ranks.push_back({farm::own_greeting().host, threads_, busy_here_, false});
+  for (const Rank& rank : others_) {
+    report.ranks.push_back({rank.greeting.host, rank.threads, rank.busy_seconds, rank.lost});
+  }
+  report.seconds = seconds_;
+  report.handed_out_again = handed_out_again_;
+  report.resumed = resumed_;
+  return report;
+}
+
+}  // namespace spincat

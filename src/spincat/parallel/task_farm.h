@@ -1,0 +1,102 @@
+// The task farm: many tasks, done by the threads of this process and by other ranks, results in the order of the tasks.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "spincat/parallel/communicator.h"
+#include "spincat/parallel/farm_report.h"
+#include "spincat/parallel/journal.h"
+#include "spincat/parallel/task.h"
+
+namespace spincat {
+
+// Tasks of one kind.
+struct Job {
+  std::string kind;                      // by which other ranks know the work
+  std::function<std::string()> context;  // what they need for it; asked for only where there are any
+  Work work;                             // the same work, here
+  std::size_t tasks = 0;
+  std::function<std::string(std::size_t task)> task;  // what is to be done, as bytes
+  std::function<void(std::size_t task, std::string result)>
+      deliver;  // on the calling thread, in the order of the tasks
+};
+
+// Rank 0's side of the farm; the other ranks serve (task_server.h). A rank that says nothing for longer than the
+// deadline is taken to be lost: its tasks are handed out again, and the first result of a task counts. When it speaks
+// again it takes part again. The results do not depend on the number of threads and ranks, nor on losses.
+// For one thread of rank 0.
+class TaskFarm {
+ public:
+  using Clock = std::chrono::steady_clock;
+  // Called with the number of tasks delivered, at least some ten times a second. What it throws ends the job cleanly.
+  using Tick = std::function<void(std::size_t delivered)>;
+
+  explicit TaskFarm(Communicator& ranks);
+  // Tells the other ranks that this was all, and waits for those that are not lost. Ranks of this host that are stopped
+  // are killed: a launcher would wait for them for ever.
+  ~TaskFarm();
+  TaskFarm(const TaskFarm&) = delete;
+  TaskFarm& operator=(const TaskFarm&) = delete;
+
+  int ranks() const { return ranks_.size(); }
+  int ranks_on_host() const { return ranks_.ranks_on_host(); }
+  std::string mpi() const { return ranks_.implementation(); }
+
+  // Threads of this process, and as many as the user asked for elsewhere (0: as many as there are).
+  void use_threads(int here, int requested);
+  int threads() const { return threads_; }
+  // Whether there is more to a job than this process's threads: other ranks, or a journal.
+  bool shares_out() const { return ranks() > 1 || journal_ != nullptr; }
+  int threads_everywhere() const;  // as far as known: ranks that have not spoken yet count like this one
+
+  // From now on results are kept in the journal, and those that it has are not computed again. Null: no journal.
+  void use_journal(Journal* journal) { journal_ = journal; }
+
+  // Does all tasks. Throws what `deliver` and `tick` throw, and the problem of the first task, in their order, that has
+  // one (InputError or RunError).
+  void run(const Job& job, const Tick& tick = {});
+
+  // Gives all other ranks something that later jobs need. No tasks.
+  void share(const std::string& kind, const std::function<std::string()>& context);
+
+  // So far. Waits a moment for ranks that have not even said where they are: jobs may be over before.
+  FarmReport report();
+
+ private:
+  class Run;
+  struct Rank;
+
+  SharedBytes start_of(std::uint32_t job, const std::string& kind, const std::function<std::string()>& context) const;
+  void greet(Rank& rank, const Message& message);
+  void dismiss();
+
+  Communicator& ranks_;
+  int threads_ = 1;
+  int requested_threads_ = 1;
+  Journal* journal_ = nullptr;
+  std::uint32_t job_ = 0;
+  std::uint64_t journaled_jobs_ = 0;
+  std::vector<Rank> others_;  // ranks 1, 2, ...
+  double busy_here_ = 0.0;
+  double seconds_ = 0.0;
+  std::size_t handed_out_again_ = 0;
+  std::size_t resumed_ = 0;
+};
+
+// A farm of this process's threads alone.
+class OwnFarm {
+ public:
+  explicit OwnFarm(int threads) : farm_(alone_) { farm_.use_threads(threads, threads); }
+  TaskFarm& farm() { return farm_; }
+
+ private:
+  SerialCommunicator alone_;
+  TaskFarm farm_;
+};
+
+}  // namespace spincat

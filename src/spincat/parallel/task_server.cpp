@@ -1,0 +1,159 @@
+#include "spincat/parallel/task_server.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdint>
+#include <exception>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include "spincat/parallel/farm_messages.h"
+#include "spincat/parallel/packing.h"
+#include "spincat/parallel/pause.h"
+#include "spincat/parallel/thread_crew.h"
+
+namespace spincat {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kBetweenBeats(200);
+constexpr std::chrono::milliseconds kBetweenLooksAtParent(500);
+
+class Server {
+ public:
+  Server(Communicator& ranks, const WorkFactory& factory, const std::function<int(int)>& thread_count)
+      : ranks_(ranks), factory_(factory), thread_count_(thread_count), parent_(getppid()) {
+    say(farm::kHello, pack(farm::own_greeting()));
+  }
+
+  void run(const std::function<void()>& keep_going) {
+    Pause pause;
+    while (!quit_ && !is_orphan()) {
+      keep_going();
+      const bool happened = hear() | answer();
+      beat();
+      rest(pause.next(happened, ranks_.under_way() > 0));
+    }
+    crew_.reset();
+    say(farm::kBye, {});
+  }
+
+ private:
+  void say(farm::Tag tag, std::string bytes) {
+    ranks_.send(0, tag, std::make_shared<const std::string>(std::move(bytes)));
+    last_said_ = Clock::now();
+  }
+
+  bool hear() {
+    bool heard = false;
+    while (!quit_) {
+      const std::optional<Message> message = ranks_.receive();
+      if (!message) {
+        break;
+      }
+      heard = true;
+      act_on(*message);
+    }
+    return heard;
+  }
+
+  void act_on(const Message& message) {
+    switch (message.tag) {
+      case farm::kJob:
+        start_job(farm::unpack_job_start(message.bytes));
+        break;
+      case farm::kTask: {
+        Unpacker fields(message.bytes);
+        const auto job = fields.get<std::uint32_t>();
+        const auto task = fields.get<std::uint64_t>();
+        if (crew_ && job == job_) {
+          crew_->give(task, std::string(fields.rest()));
+        }
+        break;
+      }
+      case farm::kEndOfJob:
+        crew_.reset();
+        break;
+      case farm::kQuit:
+        quit_ = true;
+        break;
+      default:
+        break;
+    }
+  }
+
+  void start_job(const farm::JobStart& start) {
+    crew_.reset();
+    job_ = start.job;
+    try {
+      const int threads = thread_count_(start.threads);
+      crew_ = std::make_unique<ThreadCrew>(factory_(start.kind, start.context), threads);
+      say(farm::kReady, Packer().add(job_).add(static_cast<std::int32_t>(threads)).take());
+    } catch (const std::exception& error) {
+      say(farm::kRefusal, Packer().add(job_).add(std::string_view(error.what())).take());
+    }
+  }
+
+  bool answer() {
+    bool answered = false;
+    while (crew_) {
+      const std::optional<TaskResult> result = crew_->take();
+      if (!result) {
+        break;
+      }
+      answered = true;
+      say(farm::kResult, farm::pack(job_, *result));
+    }
+    return answered;
+  }
+
+  // Tells rank 0 that long tasks and long messages are no sign of death.
+  void beat() {
+    if ((crew_ || ranks_.under_way() > 0) && Clock::now() - last_said_ > kBetweenBeats) {
+      say(farm::kBeat, {});
+    }
+  }
+
+  // Whoever starts ranks waits for them; when that process is gone, nobody wants the results any more.
+  bool is_orphan() {
+    const auto now = Clock::now();
+    if (now - looked_ > kBetweenLooksAtParent) {
+      looked_ = now;
+      orphan_ = getppid() != parent_;
+    }
+    return orphan_;
+  }
+
+  void rest(std::chrono::microseconds pause) {
+    if (pause.count() == 0) {
+      std::this_thread::yield();
+    } else if (crew_) {
+      crew_->wait(pause);
+    } else {
+      std::this_thread::sleep_for(pause);
+    }
+  }
+
+  Communicator& ranks_;
+  const WorkFactory& factory_;
+  const std::function<int(int)>& thread_count_;
+  const pid_t parent_;
+  std::unique_ptr<ThreadCrew> crew_;  // of the job that is on
+  std::uint32_t job_ = 0;
+  bool quit_ = false;
+  bool orphan_ = false;
+  Clock::time_point looked_ = Clock::now();
+  Clock::time_point last_said_;
+};
+
+}  // namespace
+
+void serve(Communicator& ranks, const WorkFactory& factory, const std::function<int(int)>& thread_count,
+           const std::function<void()>& keep_going) {
+  Server(ranks, factory, thread_count).run(keep_going);
+}
+
+}  // namespace spincat

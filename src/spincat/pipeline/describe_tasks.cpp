@@ -1,0 +1,116 @@
+#include "spincat/pipeline/describe_tasks.h"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "spincat/encode/encoding.h"
+#include "spincat/error.h"
+#include "spincat/io/read_object.h"
+#include "spincat/pipeline/packed_features.h"
+#include "spincat/pipeline/settings_json.h"
+#include "spincat/pipeline/stopwatch.h"
+#include "spincat/pipeline/task_kinds.h"
+
+namespace spincat {
+namespace {
+
+// From so many spin points on, an object is worth sharing out by itself.
+constexpr int kDenseSpinPoints = 8 * static_cast<int>(kSpinImageBlock * 8);
+
+using DescribeOne = std::function<FeatureVector(const Object& object, int copy, StageSeconds& seconds)>;
+
+// `describe_one` is called for the object itself and each of its copies.
+Described described_file(const std::filesystem::path& file, int views, const DescribeOne& describe_one) {
+  Described result;
+  try {
+    Stopwatch watch;
+    const Object object = read_object(file);
+    result.seconds.read = watch.lap();
+    for (int copy = 0; copy < views; ++copy) {
+      result.features.push_back(describe_one(object, copy, result.seconds));
+    }
+  } catch (const InputError& error) {
+    result.features.clear();
+    result.problem = error.problem();
+  }
+  return result;
+}
+
+std::string pack(const Described& described) {
+  Packer packer;
+  packer.add(std::string_view(described.problem));
+  pack_seconds(packer, described.seconds);
+  for (const FeatureVector& features : described.features) {
+    pack_features(packer, features);
+  }
+  return packer.take();
+}
+
+Described unpack_described(std::string_view bytes) {
+  Unpacker fields(bytes);
+  Described described;
+  described.problem = fields.get_text();
+  described.seconds = unpack_seconds(fields);
+  while (!fields.empty()) {
+    described.features.push_back(unpack_features(fields));
+  }
+  return described;
+}
+
+Work describe_work(const Settings& settings, int views) {
+  return [settings, views](std::string_view file) {
+    return pack(described_file(file, views, [&](const Object& object, int copy, StageSeconds& seconds) {
+      return describe(object, settings, copy, &seconds);
+    }));
+  };
+}
+
+// Objects one after the other: rank 0 prepares, the spin points are shared out.
+void describe_by_points(TaskFarm& farm, const DescribeJob& job,
+                        const std::function<void(std::size_t, Described)>& deliver, const TaskFarm::Tick& tick) {
+  for (std::size_t i = 0; i < job.files; ++i) {
+    const auto on_farm = [&](const Preparation& prepared) {
+      const DenseObject dense{prepared.object.surface, prepared.object.spin_points, prepared.params};
+      return encode_object(farm, dense, job.settings.encoding, job.division, [&](std::size_t) {
+        if (tick) {
+          tick(i);
+        }
+      });
+    };
+    deliver(i, described_file(job.file(i), job.views, [&](const Object& object, int copy, StageSeconds& seconds) {
+              return describe(object, job.settings, copy, &seconds, on_farm);
+            }));
+    if (tick) {
+      tick(i + 1);
+    }
+  }
+}
+
+}  // namespace
+
+Work make_describe_work(std::string_view context) {
+  Unpacker fields(context);
+  const int views = fields.get<int>();
+  return describe_work(settings_from_json(nlohmann::json::parse(fields.get_text())), views);
+}
+
+void describe_files(TaskFarm& farm, const DescribeJob& job,
+                    const std::function<void(std::size_t i, Described described)>& deliver,
+                    const TaskFarm::Tick& tick) {
+  const bool dense =
+      job.settings.prepare.spin_points >= kDenseSpinPoints && make_encoding(job.settings.encoding)->pools();
+  if (dense || job.division == Division::images) {
+    describe_by_points(farm, job, deliver, tick);
+    return;
+  }
+  Job tasks;
+  tasks.kind = kDescribeTasks;
+  tasks.context = [&] { return Packer().add(job.views).add(settings_to_json(job.settings).dump()).take(); };
+  tasks.work = describe_work(job.settings, job.views);
+  tasks.tasks = job.files;
+  tasks.task = [&](std::size_t i) { return job.file(i).string(); };
+  tasks.deliver = [&](std::size_t i, const std::string& result) { deliver(i, unpack_described(result)); };
+  farm.run(tasks, tick);
+}
+
+}  // namespace spincat

@@ -1,0 +1,46 @@
+// Describing the objects of a data set, or files to be named, on all threads and ranks of a farm.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "spincat/encode/feature_vector.h"
+#include "spincat/parallel/task.h"
+#include "spincat/parallel/task_farm.h"
+#include "spincat/pipeline/dense_object.h"
+#include "spincat/pipeline/describe.h"
+#include "spincat/pipeline/settings.h"
+
+namespace spincat {
+
+// What became of one file.
+struct Described {
+  std::vector<FeatureVector> features;  // the object itself and its copies; empty when it could not be read
+  std::string problem;                  // why not
+  StageSeconds seconds;
+};
+
+// Which files, and how.
+struct DescribeJob {
+  std::size_t files = 0;
+  std::function<const std::filesystem::path&(std::size_t)> file;
+  const Settings& settings;
+  int views = 1;  // the object itself and views - 1 training copies
+  Division division = Division::sums;
+};
+
+// Reads and describes every file and hands the results on in order, on the calling thread. Many objects with few spin
+// points are shared out object by object; those with many spin points, or all of them where the division is `images`,
+// one after the other by their spin points. The results are the same for any number of threads and ranks and for both
+// divisions; the seconds are not. `tick` gets the number of files that are done.
+void describe_files(TaskFarm& farm, const DescribeJob& job,
+                    const std::function<void(std::size_t i, Described described)>& deliver, const TaskFarm::Tick& tick);
+
+// Its work, for other ranks.
+Work make_describe_work(std::string_view context);
+
+}  // namespace spincat

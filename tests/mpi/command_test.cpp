@@ -1,0 +1,142 @@
+// The command under mpirun: the same files as without, whatever the MPI, the ranks and the threads.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "mpi/launching.h"
+
+namespace spincat::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class UnderMpi : public Launching, public testing::WithParamInterface<Mpi> {
+ protected:
+  void SetUp() override {
+    if (const std::string reason = reason_to_skip(GetParam()); !reason.empty()) {
+      GTEST_SKIP() << reason;
+    }
+  }
+
+  // Runs a command on so many ranks and asserts that it did.
+  RunResult run(int ranks, const std::string& arguments) {
+    RunResult result = launch(GetParam(), ranks, arguments);
+    EXPECT_EQ(result.code, 0) << result.err;
+    if (ranks > 1) {
+      EXPECT_NE(result.err.find(fmt::format("spincat: {} ranks on 1 host", ranks)), std::string::npos) << result.err;
+      EXPECT_NE(result.err.find("nothing handed out again"), std::string::npos) << result.err;
+    }
+    return result;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Mpi, UnderMpi, testing::Values(kOpenMpi, kMpich),
+                         [](const auto& each) { return each.param.name; });
+
+TEST_P(UnderMpi, SpinImagesAreTheSameBytes) {
+  make_scan("scan.off", 30);
+  ASSERT_EQ(alone("spin scan.off -o alone.npy --image-width 16").code, 0);
+  const std::string expected = bytes("alone.npy");
+  ASSERT_GT(expected.size(), 1'800U * 256U * 4U);
+  for (const auto& [ranks, threads] : std::vector<std::pair<int, int>>{{1, 1}, {2, 1}, {3, 2}, {4, 1}, {7, 1}}) {
+    run(ranks, fmt::format("spin scan.off -o ranks.npy --image-width 16 --threads {}", threads));
+    EXPECT_TRUE(bytes("ranks.npy") == expected) << ranks << " ranks";
+    fs::remove(dir_.path() / "ranks.npy");
+  }
+  EXPECT_FALSE(fs::exists(dir_.path() / "ranks.npy.journal"));
+}
+
+TEST_P(UnderMpi, BothDivisionsGiveTheSameFeatures) {
+  make_scan("scan.off", 40);
+  const std::string encode = "--encode pooled-pyramid --image-width 16 --bin-size 0.1rel ";
+  ASSERT_EQ(alone("spin scan.off -o alone.npy " + encode).code, 0);
+  const std::string expected = bytes("alone.npy");
+  ASSERT_GT(expected.size(), 1'000U);
+  for (const int ranks : {1, 2, 3}) {
+    for (const char* divide : {"sums", "images"}) {
+      run(ranks, fmt::format("spin scan.off -o ranks.npy {} --divide {}", encode, divide));
+      EXPECT_TRUE(bytes("ranks.npy") == expected) << ranks << " ranks, " << divide;
+    }
+  }
+}
+
+TEST_P(UnderMpi, ModelsAreTheSameBytes) {
+  make_dataset(5);
+  const std::string small = "--copies 1 --points 256 --spin-points 32 ";
+  ASSERT_EQ(alone("train boxes -o alone.spincat " + small).code, 0);
+  const std::string expected = bytes("alone.spincat");
+  ASSERT_GT(expected.size(), 1'000U);
+  for (const int ranks : {1, 2, 3, 4}) {
+    run(ranks, "train boxes -o ranks.spincat --threads 1 " + small);
+    EXPECT_TRUE(bytes("ranks.spincat") == expected) << ranks << " ranks";
+  }
+  run(2, "train boxes -o ranks.spincat --divide images " + small);
+  EXPECT_TRUE(bytes("ranks.spincat") == expected) << "images";
+}
+
+TEST_P(UnderMpi, OnlyOneRankSpeaks) {
+  const RunResult wrong = launch(GetParam(), 3, "spin absent.off -o images.npy");
+  EXPECT_NE(wrong.code, 0);
+  EXPECT_NE(wrong.err.find("spincat: absent.off: no such file\n"), std::string::npos) << wrong.err;
+  EXPECT_EQ(wrong.err.find("absent.off"), wrong.err.rfind("absent.off")) << wrong.err;
+  EXPECT_EQ(launch(GetParam(), 2, "--version").out.substr(0, 8), "spincat ");
+  make_scan("scan.off", 6);
+  EXPECT_EQ(launch(GetParam(), 2, "spin scan.off -o images.npy --quiet").err, "");
+}
+
+TEST_P(UnderMpi, WarnsOfMoreThreadsThanProcessors) {
+  make_scan("scan.off", 6);
+  const RunResult result = run(2, "spin scan.off -o images.npy --threads 999");
+  EXPECT_NE(result.err.find("2 ranks of 999 threads share the "), std::string::npos) << result.err;
+}
+
+class Singletons : public Launching {};
+
+// A launcher that speaks to another MPI starts processes that each believe to be alone.
+TEST_F(Singletons, AreRefused) {
+  make_scan("scan.off", 6);
+  const std::string spin = fmt::format("'{}' spin scan.off -o images.npy", SPINCAT_COMMAND);
+  if (const std::string reason = reason_to_skip(kMpich); !reason.empty()) {
+    GTEST_SKIP() << reason;
+  }
+  const RunResult other = shell(spin, "PMI_SIZE=2 PMI_RANK=0");
+  EXPECT_EQ(other.code, 1);
+  EXPECT_NE(other.err.find("has started 2 processes, but each of them is alone"), std::string::npos) << other.err;
+  EXPECT_FALSE(fs::exists(dir_.path() / "images.npy"));
+}
+
+TEST_F(Singletons, OfSrunAreToldWhatToDo) {
+  make_scan("scan.off", 6);
+  const std::string spin = fmt::format("'{}' spin scan.off -o images.npy", SPINCAT_COMMAND);
+  const RunResult first = shell(spin, "SLURM_STEP_NUM_TASKS=4 SLURM_PROCID=0");
+  EXPECT_EQ(first.code, 1);
+  EXPECT_NE(first.err.find("srun has started 4 processes"), std::string::npos) << first.err;
+  EXPECT_NE(first.err.find("--mpi=pmix"), std::string::npos) << first.err;
+  const RunResult second = shell(spin, "SLURM_STEP_NUM_TASKS=4 SLURM_PROCID=1");
+  EXPECT_EQ(second.code, 1);
+  EXPECT_EQ(second.err, "");  // once is enough
+  EXPECT_FALSE(fs::exists(dir_.path() / "images.npy"));
+}
+
+TEST_F(Singletons, OneProcessNeedsNoMpi) {
+  make_scan("scan.off", 6);
+  const RunResult result =
+      shell(fmt::format("'{}' spin scan.off -o images.npy", SPINCAT_COMMAND), "SLURM_STEP_NUM_TASKS=1 SLURM_PROCID=0");
+  EXPECT_EQ(result.code, 0) << result.err;
+}
+
+class Journals : public Launching {};
+
+TEST_F(Journals, OfAnotherRunAreRefused) {
+  make_scan("scan.off", 8);
+  const std::string spin = "spin scan.off -o images.npy --journal run.journal ";
+  EXPECT_EQ(alone(spin).code, 0);
+  EXPECT_FALSE(fs::exists(dir_.path() / "run.journal"));  // it was complete
+  dir_.write("run.journal", "something else, and long enough to be no journal that was torn off at its very beginning");
+  const RunResult result = alone(spin);
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err, "spincat: run.journal: is no journal of spincat\n");
+}
+
+}  // namespace
+}  // namespace spincat::test

@@ -1,0 +1,117 @@
+// Ranks that are killed or stopped at random moments. SPINCAT_LOSSES says how often each kind is tried.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "mpi/launching.h"
+
+namespace spincat::test {
+namespace {
+
+class Losses : public Launching {
+ protected:
+  void SetUp() override {
+    make_scan("scan.off", 40);
+    ASSERT_EQ(alone("spin scan.off -o alone.npy " + kArguments).code, 0);
+  }
+
+  static int rounds() {
+    const char* wanted = std::getenv("SPINCAT_LOSSES");
+    return wanted != nullptr ? std::atoi(wanted) : 2;
+  }
+
+  // Starts the command in the background; its exit code appears in a file.
+  void start(const Mpi& mpi, int ranks) {
+    fs::remove(dir_.path() / "code");
+    const std::string line = fmt::format(
+        "cd '{}' && (SPINCAT_DEADLINE=1 timeout -k 1 60 {} {} -n {} '{}' spin scan.off -o ranks.npy {} >.out 2>.err "
+        "</dev/null; echo $? >code.new; mv code.new code) >/dev/null 2>&1 &",
+        dir_.path().string(), mpi.launcher, mpi.recovery, ranks, SPINCAT_COMMAND, kArguments);
+    ASSERT_EQ(std::system(line.c_str()), 0);
+  }
+
+  // Process numbers of our ranks but the first.
+  std::vector<pid_t> workers() const {
+    std::vector<pid_t> found;
+    for (const auto& entry : fs::directory_iterator("/proc")) {
+      const std::string name = entry.path().filename();
+      if (name.find_first_not_of("0123456789") != std::string::npos) {
+        continue;
+      }
+      std::error_code error;
+      const fs::path folder = fs::read_symlink(entry.path() / "cwd", error);
+      const fs::path program = fs::read_symlink(entry.path() / "exe", error);
+      const std::string environment = contents(entry.path() / "environ");
+      const auto has = [&](const char* variable) { return environment.find(variable) != std::string::npos; };
+      if (folder == fs::canonical(dir_.path()) && program == fs::canonical(SPINCAT_COMMAND) &&
+          (has("PMI_RANK=") || has("OMPI_COMM_WORLD_RANK=")) && !has("PMI_RANK=0") && !has("OMPI_COMM_WORLD_RANK=0")) {
+        found.push_back(std::stoi(name));
+      }
+    }
+    return found;
+  }
+
+  // Sends a signal to a worker at a random moment after it was started; false when none was there any more.
+  bool hit(int signal) {
+    std::vector<pid_t> found;
+    for (int i = 0; i < 2'000 && found.size() < 2 && !fs::exists(dir_.path() / "code"); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      found = workers();
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(moment_(random_)));
+    return !found.empty() && kill(found[random_() % found.size()], signal) == 0;
+  }
+
+  int wait_for_code() const {
+    for (int i = 0; i < 7'000 && !fs::exists(dir_.path() / "code"); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    const std::string code = contents(dir_.path() / "code");
+    return code.empty() ? -1 : std::stoi(code);
+  }
+
+  void expect_right() {
+    EXPECT_TRUE(bytes("ranks.npy") == bytes("alone.npy")) << bytes(".err");
+    fs::remove(dir_.path() / "ranks.npy");
+  }
+
+  const std::string kArguments = "--image-width 32 --threads 1";
+  std::mt19937 random_{std::random_device{}()};
+  std::uniform_int_distribution<int> moment_{0, 900};  // milliseconds
+};
+
+TEST_F(Losses, UnderOpenMpiCostNothingButTime) {
+  if (const std::string reason = reason_to_skip(kOpenMpi); !reason.empty()) {
+    GTEST_SKIP() << reason;
+  }
+  for (const int signal : {SIGKILL, SIGSTOP}) {
+    for (int round = 0; round < rounds(); ++round) {
+      start(kOpenMpi, 3);
+      hit(signal);
+      EXPECT_EQ(wait_for_code(), 0) << "signal " << signal << ", round " << round << "\n" << bytes(".err");
+      expect_right();
+    }
+  }
+}
+
+// MPICH's launcher ends the whole run; the same command goes on from the journal.
+TEST_F(Losses, UnderMpichTheSameCommandGoesOn) {
+  if (const std::string reason = reason_to_skip(kMpich); !reason.empty()) {
+    GTEST_SKIP() << reason;
+  }
+  for (const int signal : {SIGKILL, SIGSTOP}) {
+    for (int round = 0; round < rounds(); ++round) {
+      start(kMpich, 3);
+      hit(signal);
+      if (wait_for_code() != 0) {
+        start(kMpich, 3);
+        EXPECT_EQ(wait_for_code(), 0) << "signal " << signal << ", round " << round << "\n" << bytes(".err");
+      }
+      expect_right();
+      EXPECT_FALSE(fs::exists(dir_.path() / "ranks.npy.journal"));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace spincat::test

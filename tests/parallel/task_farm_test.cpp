@@ -1,0 +1,293 @@
+#include "spincat/parallel/task_farm.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <functional>
+#include <thread>
+#include <vector>
+
+#include "parallel/thread_ranks.h"
+#include "spincat/error.h"
+#include "spincat/parallel/task_server.h"
+#include "support/expect_error.h"
+#include "support/temp_dir.h"
+
+namespace spincat {
+namespace {
+
+using test::ThreadCommunicator;
+using test::Wires;
+
+// Squares numbers; negative ones fail.
+std::string square(std::string_view context, std::string_view task) {
+  const int n = std::stoi(std::string(task));
+  if (n == -1) {
+    throw InputError("chair.off", "is broken");
+  }
+  if (n == -2) {
+    throw std::bad_alloc();
+  }
+  return fmt::format("{}{}", context, n * n);
+}
+
+// Several ranks as threads; the farm lives in the thread of the test.
+class Ranks {
+ public:
+  explicit Ranks(int count, int threads_each = 1, std::function<void()> before_task = {})
+      : wires_(std::make_shared<Wires>(count)), ranks_(wires_, 0) {
+    const auto factory = [before_task](std::string_view kind, std::string_view context) -> Work {
+      if (kind != "square") {
+        throw RunError("not known");
+      }
+      return [before_task, kept = std::string(context)](std::string_view task) {
+        if (before_task) {
+          before_task();
+        }
+        return square(kept, task);
+      };
+    };
+    for (int r = 1; r < count; ++r) {
+      servers_.emplace_back([this, r, factory, threads_each] {
+        ThreadCommunicator ranks(wires_, r);
+        serve(
+            ranks, factory, [&](int) { return threads_each; }, [] {});
+      });
+    }
+  }
+
+  ~Ranks() {
+    for (std::thread& server : servers_) {
+      server.join();
+    }
+  }
+
+  Communicator& communicator() { return ranks_; }
+  Wires& wires() { return *wires_; }
+
+ private:
+  std::shared_ptr<Wires> wires_;
+  ThreadCommunicator ranks_;
+  std::vector<std::thread> servers_;
+};
+
+struct Outcome {
+  std::vector<std::string> results;
+  std::vector<std::size_t> order;
+};
+
+Job squares(const std::vector<int>& numbers, Outcome& outcome) {
+  Job job;
+  job.kind = "square";
+  job.context = [] { return std::string("="); };
+  job.work = [](std::string_view task) { return square("=", task); };
+  job.tasks = numbers.size();
+  job.task = [&numbers](std::size_t i) { return std::to_string(numbers[i]); };
+  job.deliver = [&outcome](std::size_t i, std::string result) {
+    outcome.order.push_back(i);
+    outcome.results.push_back(std::move(result));
+  };
+  return job;
+}
+
+std::vector<int> numbers_up_to(int count) {
+  std::vector<int> numbers;
+  for (int i = 0; i < count; ++i) {
+    numbers.push_back(i);
+  }
+  return numbers;
+}
+
+void expect_squares(const Outcome& outcome, int count) {
+  ASSERT_EQ(outcome.results.size(), static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    EXPECT_EQ(outcome.order[static_cast<std::size_t>(i)], static_cast<std::size_t>(i));
+    EXPECT_EQ(outcome.results[static_cast<std::size_t>(i)], fmt::format("={}", i * i));
+  }
+}
+
+TEST(TaskFarm, DeliversInOrderWithAnyRanksAndThreads) {
+  const std::vector<int> numbers = numbers_up_to(300);
+  for (const auto& [ranks, threads] : std::vector<std::pair<int, int>>{{1, 1}, {1, 3}, {2, 1}, {3, 2}, {7, 1}}) {
+    Ranks others(ranks, threads);
+    Outcome outcome;
+    TaskFarm farm(others.communicator());
+    farm.use_threads(threads, threads);
+    std::size_t last = 0;
+    farm.run(squares(numbers, outcome), [&](std::size_t done) {
+      EXPECT_GE(done, last);
+      last = done;
+    });
+    EXPECT_EQ(last, 300U);
+    expect_squares(outcome, 300);
+    EXPECT_EQ(farm.report().ranks.size(), static_cast<std::size_t>(ranks));
+    EXPECT_EQ(farm.report().handed_out_again, 0U);
+  }
+}
+
+TEST(TaskFarm, NoTasksAreSoonDone) {
+  Ranks others(3);
+  Outcome outcome;
+  TaskFarm farm(others.communicator());
+  farm.run(squares({}, outcome));
+  EXPECT_TRUE(outcome.results.empty());
+}
+
+TEST(TaskFarm, EveryRankTakesPart) {
+  Ranks others(3, 1, [] { std::this_thread::sleep_for(std::chrono::milliseconds(1)); });
+  Outcome outcome;
+  const std::vector<int> numbers = numbers_up_to(200);
+  TaskFarm farm(others.communicator());
+  Job job = squares(numbers, outcome);
+  job.work = [](std::string_view task) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return square("=", task);
+  };
+  farm.run(job);
+  expect_squares(outcome, 200);
+  for (const FarmReport::Rank& rank : farm.report().ranks) {
+    EXPECT_EQ(rank.threads, 1);
+    EXPECT_GT(rank.busy_seconds, 0.01);
+  }
+}
+
+TEST(TaskFarm, TheFirstProblemInOrderIsThrownWhateverTheRanks) {
+  for (const int ranks : {1, 2, 4}) {
+    Ranks others(ranks);
+    Outcome outcome;
+    TaskFarm farm(others.communicator());
+    std::vector<int> numbers = numbers_up_to(50);
+    numbers[20] = -1;
+    numbers[21] = -2;
+    test::expect_error<InputError>([&] { farm.run(squares(numbers, outcome)); }, "chair.off: is broken");
+    EXPECT_EQ(outcome.results.size(), 20U);
+    numbers[20] = 20;
+    outcome = {};
+    test::expect_error<RunError>([&] { farm.run(squares(numbers, outcome)); }, "not enough memory");
+    outcome = {};
+    farm.run(squares(numbers = numbers_up_to(40), outcome));  // the farm is still good
+    expect_squares(outcome, 40);
+  }
+}
+
+TEST(TaskFarm, WhatDeliverAndTickThrowEndsTheJob) {
+  Ranks others(3);
+  TaskFarm farm(others.communicator());
+  Outcome outcome;
+  const std::vector<int> numbers = numbers_up_to(100);
+  Job job = squares(numbers, outcome);
+  job.deliver = [](std::size_t i, const std::string&) {
+    if (i == 3) {
+      throw RunError("disk full");
+    }
+  };
+  test::expect_error<RunError>([&] { farm.run(job); }, "disk full");
+  test::expect_error<RunError>(
+      [&] { farm.run(squares(numbers, outcome), [](std::size_t) { throw RunError("interrupted"); }); }, "interrupted");
+}
+
+TEST(TaskFarm, ALostRankCostsNothingButTime) {
+  setenv("SPINCAT_DEADLINE", "0.3", 1);
+  std::atomic<int> begun = 0;
+  std::shared_ptr<Wires> wires;
+  Ranks others(3, 1, [&] {
+    if (++begun == 10) {
+      wires->silence(1);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  });
+  wires = std::shared_ptr<Wires>(&others.wires(), [](Wires*) {});
+  Outcome outcome;
+  {
+    TaskFarm farm(others.communicator());
+    const std::vector<int> numbers = numbers_up_to(400);
+    Job job = squares(numbers, outcome);
+    job.work = [](std::string_view task) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      return square("=", task);
+    };
+    farm.run(job);
+    expect_squares(outcome, 400);
+    EXPECT_GT(farm.report().handed_out_again, 0U);
+    EXPECT_TRUE(farm.report().ranks[1].lost);
+    EXPECT_FALSE(farm.report().ranks[2].lost);
+    others.wires().silence(1, false);  // so that it can say good-bye
+  }
+}
+
+TEST(TaskFarm, WhoSpeaksAgainTakesPartAgain) {
+  std::atomic<int> begun = 0;
+  Ranks others(2, 1, [&] { ++begun; });
+  Outcome outcome;
+  TaskFarm farm(others.communicator());
+  const std::vector<int> numbers = numbers_up_to(2'000);
+  Job job = squares(numbers, outcome);
+  int at_return = -1;
+  job.deliver = [&](std::size_t i, std::string result) {
+    outcome.order.push_back(i);
+    outcome.results.push_back(std::move(result));
+    if (i == 100) {
+      others.wires().silence(1);
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    if (i == 300) {
+      others.wires().silence(1, false);
+      at_return = begun;
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(300));
+  };
+  farm.run(job);
+  expect_squares(outcome, 2'000);
+  EXPECT_GE(at_return, 0);
+}
+
+TEST(TaskFarm, ARankThatCannotDoTheWorkIsDoneWithout) {
+  Ranks others(3);
+  TaskFarm farm(others.communicator());
+  Outcome outcome;
+  const std::vector<int> numbers = numbers_up_to(50);
+  Job job = squares(numbers, outcome);
+  job.kind = "something else";
+  farm.run(job);
+  expect_squares(outcome, 50);
+}
+
+TEST(TaskFarm, GoesOnWhereTheJournalEnds) {
+  const test::TempDir dir;
+  const RunIdentity identity{"settings", "data"};
+  const std::vector<int> numbers = numbers_up_to(60);
+  Outcome first;
+  {
+    Journal journal(dir.path() / "j", identity);
+    SerialCommunicator alone;
+    TaskFarm farm(alone);
+    farm.use_journal(&journal);
+    const auto stop = [&](std::size_t done) {
+      if (done >= 25) {
+        throw RunError("killed");
+      }
+    };
+    test::expect_error<RunError>([&] { farm.run(squares(numbers, first), stop); }, "killed");
+  }
+  Journal journal(dir.path() / "j", identity);
+  EXPECT_GE(journal.size(), 25U);
+  EXPECT_LT(journal.size(), 60U);
+  const std::size_t had = journal.size();
+  Ranks others(3);
+  Outcome second;
+  TaskFarm farm(others.communicator());
+  farm.use_journal(&journal);
+  farm.run(squares(numbers, second));
+  expect_squares(second, 60);
+  EXPECT_EQ(farm.report().resumed, had);
+  Outcome again;  // another job of the same run: not the first one's results
+  farm.run(squares(numbers, again));
+  expect_squares(again, 60);
+  EXPECT_EQ(farm.report().resumed, had);
+}
+
+}  // namespace
+}  // namespace spincat

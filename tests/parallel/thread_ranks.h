@@ -1,0 +1,63 @@
+// Ranks that are threads of one process: everything about the farm that needs no MPI.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "spincat/parallel/communicator.h"
+
+namespace spincat::test {
+
+// The wires between the ranks.
+struct Wires {
+  explicit Wires(int ranks) : inbox(static_cast<std::size_t>(ranks)), mute(inbox.size(), false) {}
+
+  std::mutex mutex;
+  std::vector<std::deque<Message>> inbox;
+  std::vector<bool> mute;  // what these ranks say is lost, as if they were dead
+
+  void silence(int rank, bool silent = true) {
+    const std::lock_guard lock(mutex);
+    mute[static_cast<std::size_t>(rank)] = silent;
+  }
+};
+
+class ThreadCommunicator final : public Communicator {
+ public:
+  ThreadCommunicator(std::shared_ptr<Wires> wires, int rank) : wires_(std::move(wires)), rank_(rank) {}
+
+  int rank() const override { return rank_; }
+  int size() const override { return static_cast<int>(wires_->inbox.size()); }
+  int ranks_on_host() const override { return size(); }
+  std::string implementation() const override { return "threads"; }
+
+  void send(int to, int tag, SharedBytes bytes) override {
+    const std::lock_guard lock(wires_->mutex);
+    if (!wires_->mute[static_cast<std::size_t>(rank_)]) {
+      wires_->inbox[static_cast<std::size_t>(to)].push_back({rank_, tag, *bytes});
+    }
+  }
+
+  std::optional<Message> receive() override {
+    const std::lock_guard lock(wires_->mutex);
+    auto& inbox = wires_->inbox[static_cast<std::size_t>(rank_)];
+    if (inbox.empty()) {
+      return std::nullopt;
+    }
+    Message message = std::move(inbox.front());
+    inbox.pop_front();
+    return message;
+  }
+
+  std::size_t under_way() const override { return 0; }
+  void give_up(int) override {}
+
+ private:
+  std::shared_ptr<Wires> wires_;
+  int rank_;
+};
+
+}  // namespace spincat::test

@@ -5,17 +5,16 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <mutex>
 #include <optional>
 
 #include "commands.h"
-#include "interrupt.h"
+#include "farm_run.h"
 #include "messages.h"
 #include "options.h"
 #include "progress_bar.h"
 #include "spincat/dataset/object_files.h"
 #include "spincat/error.h"
-#include "spincat/parallel/for_each.h"
+#include "spincat/pipeline/classify_tasks.h"
 #include "spincat/report/json.h"
 #include "spincat/report/text.h"
 #include "spincat/report/text_table.h"
@@ -69,27 +68,6 @@ std::vector<Input> expand_folders(const std::vector<fs::path>& arguments) {
     }
   }
   return inputs;
-}
-
-// What became of one file.
-struct Answer {
-  std::optional<Classification> classification;
-  std::string error;  // the whole line, when there is no classification
-  bool done = false;
-};
-
-Answer answer_for(const Model& model, const Input& input) {
-  const fs::path& file = input.file;
-  if (!input.problem.empty()) {
-    return {{}, file.string() + ": " + input.problem, true};
-  }
-  try {
-    return {classify_file(model, file), {}, true};
-  } catch (const std::bad_alloc&) {
-    return {{}, file.string() + ": not enough memory for it", true};
-  } catch (const Error& error) {
-    return {{}, error.what(), true};
-  }
 }
 
 // Prints answers as people or programs want them. Columns are as wide as the widest file and category.
@@ -167,39 +145,67 @@ class AnswerPrinter {
   bool head_printed_ = false;
 };
 
-// Classifies on all threads and prints in the order of the files, each as soon as those before it are printed.
-// Returns how many could not be classified.
-std::size_t classify_all(const Model& model, const std::vector<Input>& files, const ClassifyArguments& arguments) {
-  AnswerPrinter printer(model, files, arguments);
+// A folder without objects has no file to be named, but an answer all the same.
+Answer problem_of(const Input& input) {
+  return {{}, input.file.string() + ": " + input.problem};
+}
+
+// Classifies on all threads and ranks and prints in the order of the inputs, each as soon as those before it are
+// printed. Returns how many could not be classified.
+std::size_t classify_all(const Model& model, const std::vector<Input>& inputs, const ClassifyArguments& arguments,
+                         TaskFarm& farm) {
+  AnswerPrinter printer(model, inputs, arguments);
   ProgressBar bar(arguments.run);
-  std::vector<Answer> answers(files.size());
-  std::mutex mutex;
   std::size_t printed = 0;
   std::size_t failed = 0;
-  for_each_index(files.size(), arguments.run.thread_count(), [&](std::size_t i) {
-    stop_if_interrupted();
-    Answer answer = answer_for(model, files[i]);
-    const std::lock_guard lock(mutex);
-    answers[i] = std::move(answer);
-    for (; printed < files.size() && answers[printed].done; ++printed) {
-      failed += answers[printed].classification ? 0 : 1;
-      bar.wipe();
-      printer.print(files[printed].file, answers[printed]);
-      answers[printed] = {};  // a hundred thousand ballots need not be kept
+  const auto print = [&](const Answer& answer) {
+    failed += answer.classification ? 0 : 1;
+    bar.wipe();
+    printer.print(inputs[printed++].file, answer);
+  };
+  const auto print_problems = [&] {  // of inputs that come before the next file
+    while (printed < inputs.size() && !inputs[printed].problem.empty()) {
+      print(problem_of(inputs[printed]));
     }
-    bar.update("naming objects", printed, files.size());
-  });
+  };
+  std::vector<const fs::path*> files;
+  for (const Input& input : inputs) {
+    if (input.problem.empty()) {
+      files.push_back(&input.file);
+    }
+  }
+  const ClassifyJob job{model, arguments.model, files.size(),
+                        [&](std::size_t i) -> const fs::path& { return *files[i]; }, arguments.run.division()};
+  const auto deliver = [&](std::size_t, const Answer& answer) {
+    print_problems();
+    print(answer);
+  };
+  classify_files(farm, job, deliver, [&](std::size_t) { bar.update("naming objects", printed, inputs.size()); });
+  print_problems();
   return failed;
 }
 
-int run_classify(const ClassifyArguments& arguments) {
+RunIdentity identity_of(const Model& model, const std::vector<Input>& inputs, const ClassifyArguments& arguments) {
+  FilesIdentity data;
+  data.add(arguments.model);
+  for (const Input& input : inputs) {
+    data.add(input.file);
+  }
+  return {settings_identity("classify", model.settings), data.text()};
+}
+
+int run_classify(const ClassifyArguments& arguments, TaskFarm& farm) {
   const Model model = read_model(arguments.model);
   const std::vector<Input> files = expand_folders(arguments.inputs);
-  const std::size_t failed = classify_all(model, files, arguments);
+  FarmRun run(farm, arguments.run);
+  run.keep_journal({}, [&] { return identity_of(model, files, arguments); });
+  const std::size_t failed = classify_all(model, files, arguments, farm);
   if (failed > 0 && files.size() > 1 && !arguments.run.quiet) {
     std::fflush(stdout);
     message(fmt::format("{} of {} objects could not be named", failed, files.size()));
   }
+  std::fflush(stdout);
+  run.finish();
   return failed > 0 ? 2 : 0;
 }
 
@@ -223,7 +229,8 @@ Command add_classify(CLI::App& parent) {
       ->type_name("P");
   command->add_flag("--votes", arguments->votes, "Show what every judge said");
   arguments->run.add_to(*command);
-  return [arguments](TaskFarm&) { return run_classify(*arguments); };
+  arguments->run.add_farm_options_to(*command);
+  return [arguments](TaskFarm& farm) { return run_classify(*arguments, farm); };
 }
 
 }  // namespace spincat::app

@@ -8,10 +8,12 @@
 #include "command_line.h"
 #include "commands.h"
 #include "evaluate_options.h"
+#include "farm_run.h"
 #include "options.h"
 #include "progress_bar.h"
 #include "spincat/dataset/object_files.h"
 #include "spincat/error.h"
+#include "spincat/parallel/task_farm.h"
 #include "spincat/report/json.h"
 #include "spincat/report/text.h"
 #include "terminal.h"
@@ -63,13 +65,34 @@ Evaluation run_protocol(const EvaluateArguments& a, const Settings& settings, co
   return evaluate(dataset, settings, options, progress);
 }
 
-int run_evaluate(const EvaluateArguments& arguments) {
+// Which files an evaluation works on: its arguments and what lies below them.
+std::string data_identity(const EvaluateArguments& a) {
+  FilesIdentity data;
+  for (const auto* sources : {&a.dataset.sources, &a.train, &a.test}) {
+    for (const std::filesystem::path& source : *sources) {
+      data.add(source);
+    }
+    if (!sources->empty()) {
+      const DatasetOptions& options = sources == &a.test ? a.test_options : a.dataset.options;
+      for (const DatasetObject& object : read_dataset(*sources, options).objects) {
+        data.add(object.file);
+      }
+    }
+  }
+  return data.text();
+}
+
+int run_evaluate(const EvaluateArguments& arguments, TaskFarm& farm) {
   check_protocol(arguments);
   const Settings settings = arguments.settings.settings();
   EvaluateOptions options = arguments.options;
   options.test = arguments.tested.options();
   options.strict = arguments.dataset.strict;
-  options.threads = arguments.run.thread_count();
+  FarmRun run(farm, arguments.run);
+  run.keep_journal({}, [&] { return RunIdentity{settings_identity("evaluate", settings), data_identity(arguments)}; });
+  options.threads = farm.threads();
+  options.farm = &farm;
+  options.division = arguments.run.division();
   if (!arguments.unknown.empty()) {
     options.strangers = read_objects(arguments.unknown, arguments.unknown_models);
   }
@@ -80,6 +103,7 @@ int run_evaluate(const EvaluateArguments& arguments) {
   }
   report_left_out(evaluation.left_out, arguments.run);
   report_skipped(evaluation.skipped, arguments.run);
+  run.finish();
   if (arguments.run.json) {
     fmt::print("{}\n", evaluation_json(evaluation, settings, options, command_line()));
   } else {
@@ -145,7 +169,8 @@ Command add_evaluate(CLI::App& parent) {
   add_confidence_options(*command, *arguments);
   arguments->settings.add_to(*command);
   arguments->run.add_to(*command);
-  return [arguments](TaskFarm&) { return run_evaluate(*arguments); };
+  arguments->run.add_farm_options_to(*command);
+  return [arguments](TaskFarm& farm) { return run_evaluate(*arguments, farm); };
 }
 
 }  // namespace spincat::app

@@ -27,7 +27,7 @@ FarmRun::~FarmRun() {
   farm_.use_journal(nullptr);
 }
 
-void FarmRun::keep_journal(const fs::path& output, const RunIdentity& identity) {
+void FarmRun::keep_journal(const fs::path& output, const std::function<RunIdentity()>& identity) {
   fs::path file;
   if (run_.journal) {
     file = *run_.journal == "none" ? fs::path() : *run_.journal;
@@ -42,7 +42,9 @@ void FarmRun::keep_journal(const fs::path& output, const RunIdentity& identity) 
     return;
   }
   // The other division cuts the work into other tasks.
-  journal_.emplace(file, RunIdentity{identity.settings + " " + run_.divide, identity.data});
+  RunIdentity whose = identity();
+  whose.settings += " " + run_.divide;
+  journal_.emplace(file, whose);
   farm_.use_journal(&*journal_);
   if (journal_->size() > 0 && !run_.quiet) {
     message(fmt::format("{}: going on after {} finished task{}", file.string(), journal_->size(),
@@ -59,6 +61,14 @@ void FarmRun::finish() {
   if (farm_.ranks() > 1 && !run_.quiet) {
     message(farm_.report().text());
   }
+}
+
+std::string identity_of(const Dataset& dataset) {
+  FilesIdentity data;
+  for (const DatasetObject& object : dataset.objects) {
+    data.add(object.file);
+  }
+  return data.text();
 }
 
 std::string settings_identity(const std::string& command, const Settings& settings, const std::string& more) {

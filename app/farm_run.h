@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -25,7 +26,8 @@ class FarmRun {
 
   // Keeps finished tasks where the user wants them; with several ranks also where he did not say so: beside `output`,
   // unless this is empty or no regular file. Throws as Journal does.
-  void keep_journal(const std::filesystem::path& output, const RunIdentity& identity);
+  // `identity` is only asked for where there is a journal.
+  void keep_journal(const std::filesystem::path& output, const std::function<RunIdentity()>& identity);
 
   // The result is where it should be: the journal goes, and one line tells how the work was shared out.
   void finish();
@@ -38,5 +40,8 @@ class FarmRun {
 
 // What decides about the results of a command: its name, settings, and whatever else it depends on.
 std::string settings_identity(const std::string& command, const Settings& settings, const std::string& more = "");
+
+// Which objects a command works on.
+std::string identity_of(const Dataset& dataset);
 
 }  // namespace spincat::app

@@ -194,7 +194,7 @@ int run_spin(const SpinArguments& arguments, TaskFarm& farm) {
     if (ends_in(arguments.output, ".png")) {
       write_sheet(arguments, dense, farm.threads(), bar);
     } else {
-      run.keep_journal(arguments.output, identity_of(arguments, settings));
+      run.keep_journal(arguments.output, [&] { return identity_of(arguments, settings); });
       arguments.encoding.empty() ? write_images(arguments, farm, dense, bar)
                                  : write_features(arguments, farm, dense, bar);
     }

@@ -48,20 +48,14 @@ Dataset dataset_to_learn_from(const TrainArguments& arguments) {
   return part;
 }
 
-RunIdentity identity_of(const Dataset& dataset, const Settings& settings, bool strict) {
-  FilesIdentity data;
-  for (const DatasetObject& object : dataset.objects) {
-    data.add(object.file);
-  }
-  return {settings_identity("train", settings, strict ? "strict" : ""), data.text()};
-}
-
 int run_train(const TrainArguments& arguments, TaskFarm& farm) {
   const Settings settings = arguments.settings.settings();
   check_writable(arguments.output);  // before the work, not after it
   const Dataset dataset = dataset_to_learn_from(arguments);
   FarmRun run(farm, arguments.run);
-  run.keep_journal(arguments.output, identity_of(dataset, settings, arguments.dataset.strict));
+  run.keep_journal(arguments.output, [&] {
+    return RunIdentity{settings_identity("train", settings), identity_of(dataset)};
+  });
   Stopwatch watch;
   TrainResult result;
   {

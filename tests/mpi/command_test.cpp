@@ -74,6 +74,33 @@ TEST_P(UnderMpi, ModelsAreTheSameBytes) {
   EXPECT_TRUE(bytes("ranks.spincat") == expected) << "images";
 }
 
+TEST_P(UnderMpi, EvaluationsAndNamesAreTheSame) {
+  make_dataset(5);
+  const std::string small = " --copies 1 --points 256 --spin-points 32";
+  const auto without_times = [](const std::string& text) {
+    std::string kept;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      Json json = Json::parse(line);
+      for (const char* key : {"seconds", "stage_seconds", "milliseconds", "mpi"}) {
+        json.erase(key);
+      }
+      kept += json.dump() + "\n";
+    }
+    return kept;
+  };
+  ASSERT_EQ(alone("train boxes -o boxes.spincat" + small).code, 0);
+  const std::string evaluate = "evaluate boxes --splits 3 --json" + small;
+  const std::string classify = "classify boxes.spincat boxes --json --votes";
+  const std::string evaluation = without_times(alone(evaluate).out);
+  const std::string names = without_times(alone(classify).out);
+  ASSERT_NE(names, "");
+  for (const int ranks : {2, 3}) {
+    EXPECT_EQ(without_times(run(ranks, evaluate).out), evaluation);
+    EXPECT_EQ(without_times(run(ranks, classify).out), names);
+  }
+}
+
 TEST_P(UnderMpi, OnlyOneRankSpeaks) {
   const RunResult wrong = launch(GetParam(), 3, "spin absent.off -o images.npy");
   EXPECT_NE(wrong.code, 0);

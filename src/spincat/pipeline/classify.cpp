@@ -8,9 +8,9 @@
 
 namespace spincat {
 
-Classification classify(const Model& model, const Object& object) {
+Classification classify(const Model& model, const Object& object, const EncodePrepared& elsewhere) {
   Classification result;
-  const FeatureVector features = describe(object, model.settings, 0, &result.seconds);
+  const FeatureVector features = describe(object, model.settings, 0, &result.seconds, elsewhere);
   if (features.values.size() != model.feature_length()) {
     throw InputError(
         fmt::format("gives {} features where the model expects {}", features.values.size(), model.feature_length()));
@@ -23,12 +23,12 @@ Classification classify(const Model& model, const Object& object) {
   return result;
 }
 
-Classification classify_file(const Model& model, const std::filesystem::path& file) {
+Classification classify_file(const Model& model, const std::filesystem::path& file, const EncodePrepared& elsewhere) {
   Stopwatch watch;
   const Object object = read_object(file);
   const double read = watch.lap();
   try {
-    Classification result = classify(model, object);
+    Classification result = classify(model, object, elsewhere);
     result.seconds.read = read;
     return result;
   } catch (const InputError& error) {

@@ -16,11 +16,12 @@ struct Classification {
   StageSeconds seconds;
 };
 
-// Prepares, describes and judges an object exactly as training did. Deterministic. Throws InputError (without a file
-// name) when the object has no extent or does not fit the model.
-Classification classify(const Model& model, const Object& object);
+// Prepares, describes and judges an object exactly as training did, `elsewhere` as in describe(). Deterministic. Throws
+// InputError (without a file name) when the object has no extent or does not fit the model.
+Classification classify(const Model& model, const Object& object, const EncodePrepared& elsewhere = {});
 
 // The same for an object in a file; what is thrown names the file.
-Classification classify_file(const Model& model, const std::filesystem::path& file);
+Classification classify_file(const Model& model, const std::filesystem::path& file,
+                             const EncodePrepared& elsewhere = {});
 
 }  // namespace spincat

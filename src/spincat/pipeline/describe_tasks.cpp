@@ -68,25 +68,35 @@ Work describe_work(const Settings& settings, int views) {
 // Objects one after the other: rank 0 prepares, the spin points are shared out.
 void describe_by_points(TaskFarm& farm, const DescribeJob& job,
                         const std::function<void(std::size_t, Described)>& deliver, const TaskFarm::Tick& tick) {
-  for (std::size_t i = 0; i < job.files; ++i) {
-    const auto on_farm = [&](const Preparation& prepared) {
-      const DenseObject dense{prepared.object.surface, prepared.object.spin_points, prepared.params};
-      return encode_object(farm, dense, job.settings.encoding, job.division, [&](std::size_t) {
-        if (tick) {
-          tick(i);
-        }
-      });
-    };
-    deliver(i, described_file(job.file(i), job.views, [&](const Object& object, int copy, StageSeconds& seconds) {
-              return describe(object, job.settings, copy, &seconds, on_farm);
-            }));
+  std::size_t done = 0;
+  const auto at_work = [&](std::size_t) {
     if (tick) {
-      tick(i + 1);
+      tick(done);
     }
+  };
+  const EncodePrepared elsewhere = encode_on(farm, job.settings, job.division, at_work);
+  for (std::size_t i = 0; i < job.files; ++i) {
+    deliver(i, described_file(job.file(i), job.views, [&](const Object& object, int copy, StageSeconds& seconds) {
+              return describe(object, job.settings, copy, &seconds, elsewhere);
+            }));
+    ++done;
+    at_work(0);
   }
 }
 
 }  // namespace
+
+bool shares_out_points(const Settings& settings, Division division) {
+  const bool dense = settings.prepare.spin_points >= kDenseSpinPoints && make_encoding(settings.encoding)->pools();
+  return dense || division == Division::images;
+}
+
+EncodePrepared encode_on(TaskFarm& farm, const Settings& settings, Division division, const TaskFarm::Tick& tick) {
+  return [&farm, &settings, division, tick](const Preparation& prepared) {
+    const DenseObject dense{prepared.object.surface, prepared.object.spin_points, prepared.params};
+    return encode_object(farm, dense, settings.encoding, division, tick);
+  };
+}
 
 Work make_describe_work(std::string_view context) {
   Unpacker fields(context);
@@ -97,9 +107,7 @@ Work make_describe_work(std::string_view context) {
 void describe_files(TaskFarm& farm, const DescribeJob& job,
                     const std::function<void(std::size_t i, Described described)>& deliver,
                     const TaskFarm::Tick& tick) {
-  const bool dense =
-      job.settings.prepare.spin_points >= kDenseSpinPoints && make_encoding(job.settings.encoding)->pools();
-  if (dense || job.division == Division::images) {
+  if (shares_out_points(job.settings, job.division)) {
     describe_by_points(farm, job, deliver, tick);
     return;
   }

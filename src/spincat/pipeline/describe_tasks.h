@@ -40,6 +40,13 @@ struct DescribeJob {
 void describe_files(TaskFarm& farm, const DescribeJob& job,
                     const std::function<void(std::size_t i, Described described)>& deliver, const TaskFarm::Tick& tick);
 
+// Whether objects are dealt with one after the other, each shared out by its spin points: where they have many, or
+// where the division asks for it.
+bool shares_out_points(const Settings& settings, Division division);
+
+// For describe(): shares out the spin points of a prepared object. What is referred to must outlive the result.
+EncodePrepared encode_on(TaskFarm& farm, const Settings& settings, Division division, const TaskFarm::Tick& tick);
+
 // Its work, for other ranks.
 Work make_describe_work(std::string_view context);
 

@@ -10,6 +10,7 @@
 #include "spincat/dataset/dataset.h"
 #include "spincat/dataset/parts.h"
 #include "spincat/pipeline/describe.h"
+#include "spincat/pipeline/division.h"
 #include "spincat/pipeline/feature_table.h"
 #include "spincat/pipeline/progress.h"
 #include "spincat/pipeline/rates.h"
@@ -17,6 +18,8 @@
 #include "spincat/pipeline/test_objects.h"
 
 namespace spincat {
+
+class TaskFarm;
 
 // Which objects are learned from and which are tested.
 enum class Protocol {
@@ -36,8 +39,10 @@ struct EvaluateOptions {
   TestOptions test;                        // how the tested objects are shown
   bool measure_confidence = false;         // calibrates in each split, too: six times the teaching
   std::vector<std::filesystem::path> strangers;  // files of objects of none of the categories; asks for the above
-  bool strict = false;  // an object that cannot be read ends the evaluation instead of being left out
-  int threads = 1;      // 1 or more; never changes the result
+  bool strict = false;       // an object that cannot be read ends the evaluation instead of being left out
+  int threads = 1;           // 1 or more; never changes the result
+  TaskFarm* farm = nullptr;  // describes the objects on its threads and ranks; never changes the result either
+  Division division = Division::sums;
 
   // Throws InputError naming the option, its value and the allowed range.
   void validate() const;

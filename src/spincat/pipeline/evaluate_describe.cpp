@@ -5,6 +5,7 @@
 
 #include "spincat/dataset/splits.h"
 #include "spincat/error.h"
+#include "spincat/parallel/task_farm.h"
 #include "spincat/pipeline/evaluate.h"
 #include "spincat/pipeline/stopwatch.h"
 
@@ -34,7 +35,9 @@ EvaluationData describe_known(const Dataset& dataset, const Settings& settings, 
                               const Progress& progress) {
   EvaluationData data;
   data.dataset = dataset.name;
-  data.table = describe_dataset(dataset, settings, options.strict, options.threads, progress);
+  OwnFarm own(options.threads);
+  TaskFarm& farm = options.farm != nullptr ? *options.farm : own.farm();
+  data.table = describe_dataset(dataset, settings, options.strict, farm, options.division, progress);
   std::vector<DatasetObject> strangers;
   for (const std::filesystem::path& file : options.strangers) {
     strangers.push_back({file, 0, ""});

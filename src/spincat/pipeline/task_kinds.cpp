@@ -6,6 +6,7 @@
 #include <map>
 
 #include "spincat/error.h"
+#include "spincat/pipeline/classify_tasks.h"
 #include "spincat/pipeline/dense_object.h"
 #include "spincat/pipeline/describe_tasks.h"
 
@@ -13,8 +14,10 @@ namespace spincat {
 
 WorkFactory pipeline_work() {
   using Maker = std::function<Work(std::string_view context)>;
-  static const std::map<std::string_view, Maker> makers = {
-      {kImagesTasks, make_images_work}, {kSumsTasks, make_sums_work}, {kDescribeTasks, make_describe_work}};
+  static const std::map<std::string_view, Maker> makers = {{kImagesTasks, make_images_work},
+                                                           {kSumsTasks, make_sums_work},
+                                                           {kDescribeTasks, make_describe_work},
+                                                           {kClassifyTasks, make_classify_work}};
   return [](std::string_view kind, std::string_view context) {
     const auto maker = makers.find(kind);
     if (maker == makers.end()) {

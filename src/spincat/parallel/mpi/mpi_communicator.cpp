@@ -7,11 +7,12 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <deque>
-#include <list>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,7 @@ namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 20;
 constexpr std::size_t kHead = sizeof(std::uint64_t);  // of a message's first piece: the length of the whole
+constexpr std::chrono::milliseconds kLastAnswers(50);
 constexpr int kPiecesAtOnce = 4;                      // to one rank
 
 // A message to one rank, piece by piece.
@@ -77,10 +79,14 @@ class MpiCommunicator final : public Communicator {
     given_up_.resize(static_cast<std::size_t>(size_), false);
   }
 
-  // Ending MPI together waits for every rank: not where one was lost.
+  // Sends what is to be sent, and answers for a moment what the other side of the network still asks: MPICH over TCP
+  // otherwise hangs at its end, where one rank asks and the other no longer listens.
   ~MpiCommunicator() override {
-    while (std::ranges::find(given_up_, true) == given_up_.end() && has_outgoing()) {
+    const bool all_there = std::ranges::find(given_up_, true) == given_up_.end();
+    const auto start = std::chrono::steady_clock::now();
+    while (all_there && (has_outgoing() || std::chrono::steady_clock::now() - start < kLastAnswers)) {
       move_on();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     MPI_Finalize();
   }

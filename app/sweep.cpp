@@ -106,7 +106,7 @@ Command add_sweep(CLI::App& parent) {
   arguments->tested.add_to(*command);
   arguments->settings.add_to(*command);
   arguments->run.add_to(*command);
-  return [arguments] { return run_sweep(*arguments); };
+  return [arguments](TaskFarm&) { return run_sweep(*arguments); };
 }
 
 }  // namespace spincat::app

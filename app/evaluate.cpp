@@ -13,8 +13,10 @@
 #include "progress_bar.h"
 #include "spincat/dataset/object_files.h"
 #include "spincat/error.h"
+#include "spincat/io/file.h"
 #include "spincat/parallel/task_farm.h"
 #include "spincat/report/json.h"
+#include "spincat/report/page.h"
 #include "spincat/report/text.h"
 #include "terminal.h"
 
@@ -33,6 +35,7 @@ struct EvaluateArguments {
   std::filesystem::path unknown;
   std::filesystem::path unknown_models;
   EvaluateOptions options;
+  std::filesystem::path report;
   SettingsArguments settings;
   RunOptions run;
 };
@@ -96,6 +99,9 @@ int run_evaluate(const EvaluateArguments& arguments, TaskFarm& farm) {
   if (!arguments.unknown.empty()) {
     options.strangers = read_objects(arguments.unknown, arguments.unknown_models);
   }
+  if (!arguments.report.empty()) {
+    check_writable(arguments.report);  // before the work, not after it
+  }
   Evaluation evaluation;
   {
     ProgressBar bar(arguments.run);
@@ -103,6 +109,9 @@ int run_evaluate(const EvaluateArguments& arguments, TaskFarm& farm) {
   }
   report_left_out(evaluation.left_out, arguments.run);
   report_skipped(evaluation.skipped, arguments.run);
+  if (!arguments.report.empty()) {
+    write_file_atomically(arguments.report, evaluation_page(evaluation, settings, options, command_line()));
+  }
   run.finish();
   if (arguments.run.json) {
     fmt::print("{}\n", evaluation_json(evaluation, settings, options, command_line()));
@@ -167,6 +176,7 @@ Command add_evaluate(CLI::App& parent) {
   add_across_options(*command, *arguments);
   arguments->tested.add_to(*command);
   add_confidence_options(*command, *arguments);
+  add_report_option(*command, arguments->report);
   arguments->settings.add_to(*command);
   arguments->run.add_to(*command);
   arguments->run.add_farm_options_to(*command);

@@ -78,6 +78,11 @@ Division RunOptions::division() const {
   return divide == "images" ? Division::images : Division::sums;
 }
 
+void add_report_option(CLI::App& command, std::filesystem::path& report) {
+  command.add_option("--report", report, "Also write a page with pictures: one HTML file that needs no network")
+      ->type_name("FILE.html");
+}
+
 int RunOptions::thread_count() const {
   return spincat::thread_count(threads);
 }

@@ -66,6 +66,9 @@ struct SettingsArguments {
   Settings applied_to(Settings settings) const;
 };
 
+// --report FILE.html.
+void add_report_option(CLI::App& command, std::filesystem::path& report);
+
 // Tells on standard error which objects were left out and why, in a few lines however many there are.
 void report_skipped(const std::vector<SkippedObject>& skipped, const RunOptions& run);
 

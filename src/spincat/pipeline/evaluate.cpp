@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <mutex>
 #include <numeric>
+#include <utility>
 
 #include "spincat/dataset/splits.h"
 #include "spincat/parallel/for_each.h"
@@ -208,6 +209,29 @@ Evaluation facts_of(const EvaluationData& data, const EvaluateOptions& options) 
   return result;
 }
 
+// Every object that can be tested, with the names that the trials gave it.
+std::vector<TestedObject> named_objects(const EvaluationData& data, std::span<const Split> splits,
+                                        std::span<const Trial> trials) {
+  const std::vector<DatasetObject>& objects = data.tested ? data.tested->objects : data.table.objects;
+  std::vector<TestedObject> named;
+  for (const DatasetObject& object : objects) {
+    named.push_back({object.file, object.category, {}});
+  }
+  for (std::size_t s = 0; s < splits.size(); ++s) {
+    for (std::size_t i = 0; i < splits[s].test.size(); ++i) {
+      named[splits[s].test[i]].named.push_back(trials[s].named[i]);
+    }
+  }
+  std::size_t kept = 0;  // those that could not be described are listed as skipped
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    if (!data.tested || data.tested->problems[i].empty()) {
+      std::swap(named[kept++], named[i]);
+    }
+  }
+  named.resize(kept);
+  return named;
+}
+
 }  // namespace
 
 Evaluation judge_evaluation(const EvaluationData& data, const Settings& settings, const EvaluateOptions& options,
@@ -226,6 +250,7 @@ Evaluation judge_evaluation(const EvaluationData& data, const Settings& settings
   for (const Trial& trial : trials) {
     add(trial.confusion, result.confusion);
   }
+  result.tested = named_objects(data, splits, trials);
   fill_rates(trials, options, result);
   if (options.measure_confidence || !options.strangers.empty()) {
     result.confidence = measure_of(trials);

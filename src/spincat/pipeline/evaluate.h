@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,6 +65,13 @@ struct ConfidenceMeasure {
   std::uint32_t strangers = 0;    // how many could be read
 };
 
+// A tested object and what it was named.
+struct TestedObject {
+  std::filesystem::path file;
+  std::uint32_t category = 0;        // the truth
+  std::vector<std::uint32_t> named;  // the category it was given, in each split that tested it; maybe in none
+};
+
 struct Evaluation {
   std::string dataset;
   std::string test_dataset;  // empty when the data set is its own
@@ -82,6 +90,8 @@ struct Evaluation {
   std::vector<Rate> category_rates;  // n: over the splits that tested the category
   std::vector<SeedRates> seeds;      // with Protocol::splits
   Confusion confusion;               // added up over the splits
+  std::vector<TestedObject> tested;  // all that could be, in the order of the data set: confusion[i][j] is how often
+                                     // objects of category i were named j
   std::optional<ConfidenceMeasure> confidence;
   StageSeconds seconds;       // added up over threads; judge: teaching and voting
   double wall_seconds = 0.0;  // of everything

@@ -25,6 +25,7 @@ Trial run_trial(const EvaluationData& data, const SharedGram& gram, const Split&
     const Ballot ballot = judges.vote(features);
     const std::uint32_t truth = data.tested ? data.tested->objects[object].category : table.objects[object].category;
     ++trial.confusion[truth][ballot.winner];
+    trial.named.push_back(ballot.winner);
     if (measure_confidence) {
       (ballot.winner == truth ? trial.right : trial.wrong).push_back(confidence(ballot, features));
     }

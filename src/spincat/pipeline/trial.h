@@ -1,6 +1,7 @@
 // Private to the library, not installed: one trial of an evaluation.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "spincat/dataset/splits.h"
@@ -12,6 +13,7 @@ namespace spincat {
 // What came of one trial.
 struct Trial {
   Confusion confusion;
+  std::vector<std::uint32_t> named;  // for each of split.test: the category it was given
   // The confidences, where they are measured: in the tested objects by whether they were named right, and in strangers.
   std::vector<double> right;
   std::vector<double> wrong;

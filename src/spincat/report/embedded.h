@@ -1,0 +1,14 @@
+// Private to this folder, not installed: files that the library carries within itself (cmake/embed.cmake).
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+namespace spincat::embedded {
+
+std::string_view page_html();
+std::string_view page_css();
+std::string_view common_js();
+std::string_view evaluation_js();
+
+}  // namespace spincat::embedded

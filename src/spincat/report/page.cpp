@@ -1,0 +1,68 @@
+#include "spincat/report/page.h"
+
+#include <map>
+
+#include "spincat/report/embedded.h"
+#include "spincat/report/json.h"
+#include "spincat/report/page_parts.h"
+
+namespace spincat {
+namespace {
+
+// The template with each {{name}} replaced; what is put in is not looked at again.
+std::string filled(std::string_view text, const std::map<std::string_view, std::string_view>& values) {
+  std::string result;
+  for (std::size_t begin = text.find("{{"); begin != std::string_view::npos; begin = text.find("{{")) {
+    const std::size_t end = text.find("}}", begin);
+    result += text.substr(0, begin);
+    result += values.at(text.substr(begin + 2, end - begin - 2));
+    text.remove_prefix(end + 2);
+  }
+  return result += text;
+}
+
+Json tested_objects(const Evaluation& evaluation) {
+  Json files = Json::array();
+  Json truth = Json::array();
+  Json named = Json::array();
+  for (const TestedObject& object : evaluation.tested) {
+    files.push_back(object.file.string());
+    truth.push_back(object.category);
+    named.push_back(object.named);
+  }
+  return {{"files", files}, {"truth", truth}, {"named", named}};
+}
+
+}  // namespace
+
+std::string json_in_html(const Json& json) {
+  std::string text;
+  for (const char c : line(json)) {  // "<" can only be inside a string, where \u003c is the same
+    text += c == '<' ? std::string("\\u003c") : std::string(1, c);
+  }
+  return text;
+}
+
+std::string page(const Json& data, const std::vector<PagePart>& parts, const std::vector<std::string_view>& scripts) {
+  std::string elements;
+  for (const PagePart& part : parts) {
+    elements += "<script type=\"application/json\" id=\"" + part.id + "\">" + json_in_html(part.data) + "</script>\n";
+  }
+  std::string script(embedded::common_js());
+  for (const std::string_view each : scripts) {
+    script += each;
+  }
+  return filled(
+      embedded::page_html(),
+      {{"style", embedded::page_css()}, {"data", json_in_html(data)}, {"parts", elements}, {"script", script}});
+}
+
+std::string evaluation_page(const Evaluation& evaluation, const Settings& settings, const EvaluateOptions& options,
+                            const std::vector<std::string>& command) {
+  const Json data = {{"kind", "evaluation"},
+                     {"result", Json::parse(evaluation_json(evaluation, settings, options, command))},
+                     {"tested", tested_objects(evaluation)}};
+  return page(data, {}, {embedded::evaluation_js()});
+}
+
+}  // namespace spincat

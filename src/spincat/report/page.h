@@ -1,0 +1,18 @@
+// Results as pages for people: one HTML file each that needs nothing else and no network.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "spincat/pipeline/evaluate.h"
+#include "spincat/pipeline/settings.h"
+
+namespace spincat {
+
+// The rates, the confusion matrix with the objects behind each cell, and all that is needed to repeat the run. The page
+// holds evaluation_json (json.h) as it is, and shows its numbers. Names, whatever is in them, are shown as text.
+// Deterministic.
+std::string evaluation_page(const Evaluation& evaluation, const Settings& settings, const EvaluateOptions& options,
+                            const std::vector<std::string>& command);
+
+}  // namespace spincat

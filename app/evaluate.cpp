@@ -99,9 +99,7 @@ int run_evaluate(const EvaluateArguments& arguments, TaskFarm& farm) {
   if (!arguments.unknown.empty()) {
     options.strangers = read_objects(arguments.unknown, arguments.unknown_models);
   }
-  if (!arguments.report.empty()) {
-    check_writable(arguments.report);  // before the work, not after it
-  }
+  check_report(arguments.report);
   Evaluation evaluation;
   {
     ProgressBar bar(arguments.run);

@@ -9,6 +9,7 @@
 #include "messages.h"
 #include "spincat/encode/encoding.h"
 #include "spincat/error.h"
+#include "spincat/io/file.h"
 #include "spincat/parallel/for_each.h"
 #include "spincat/pipeline/setting_names.h"
 
@@ -81,6 +82,16 @@ Division RunOptions::division() const {
 void add_report_option(CLI::App& command, std::filesystem::path& report) {
   command.add_option("--report", report, "Also write a page with pictures: one HTML file that needs no network")
       ->type_name("FILE.html");
+}
+
+void check_report(const std::filesystem::path& report) {
+  if (report.empty()) {
+    return;
+  }
+  if (report.extension() != ".html" && report.extension() != ".htm") {
+    throw InputError(report.string(), "expected a name that ends in .html");
+  }
+  check_writable(report);
 }
 
 int RunOptions::thread_count() const {

@@ -69,6 +69,9 @@ struct SettingsArguments {
 // --report FILE.html.
 void add_report_option(CLI::App& command, std::filesystem::path& report);
 
+// Refuses a report that could not be written, before the work and not after it. Throws InputError.
+void check_report(const std::filesystem::path& report);
+
 // Tells on standard error which objects were left out and why, in a few lines however many there are.
 void report_skipped(const std::vector<SkippedObject>& skipped, const RunOptions& run);
 

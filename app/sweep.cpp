@@ -12,6 +12,7 @@
 #include "progress_bar.h"
 #include "spincat/error.h"
 #include "spincat/io/file.h"
+#include "spincat/report/page.h"
 #include "spincat/report/sweep_report.h"
 
 namespace spincat::app {
@@ -21,6 +22,7 @@ struct SweepArguments {
   DatasetArguments dataset;
   std::vector<std::string> vary;
   std::filesystem::path output;
+  std::filesystem::path report;
   TestArguments tested;
   EvaluateOptions options;
   SettingsArguments settings;
@@ -64,6 +66,7 @@ int run_sweep(const SweepArguments& arguments) {
     variations.push_back(parse_variation(text));
   }
   check_output(arguments.output);
+  check_report(arguments.report);
   const Dataset dataset = arguments.dataset.read();
   std::filesystem::path journal;
   if (!arguments.output.empty()) {
@@ -78,6 +81,9 @@ int run_sweep(const SweepArguments& arguments) {
   const std::string json = sweep_json(found, settings, options, command_line()) + "\n";
   if (!arguments.output.empty()) {
     write_file_atomically(arguments.output, arguments.output.extension() == ".csv" ? sweep_csv(found) : json);
+  }
+  if (!arguments.report.empty()) {
+    write_file_atomically(arguments.report, sweep_page(found, settings, options, command_line()));
   }
   fmt::print("{}", arguments.run.json ? json : sweep_text(found));
   return 0;
@@ -100,6 +106,7 @@ Command add_sweep(CLI::App& parent) {
       ->allow_extra_args(false)
       ->required();
   command->add_option("-o,--output", arguments->output, "A .json or .csv file for the result")->type_name("FILE");
+  add_report_option(*command, arguments->report);
   add_split_options(*command, arguments->options);
   command->add_flag("--leave-one-out", arguments->options.leave_one_out,
                     "Test each object by judges that learned from all others");

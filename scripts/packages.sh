@@ -32,6 +32,12 @@ packages_test=(
   slurm-wlm munge                                        # and under srun
 )
 
+# For the test that opens every report in a browser; it is skipped where there is none.
+packages_browser=(
+  chromium  # 120 MB to download, 410 MB installed
+  python3
+)
+
 packages_bench=(
   python3  # prints the table; the race against PCL takes part where libpcl-dev is installed, too
 )

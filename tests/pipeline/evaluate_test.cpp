@@ -53,6 +53,27 @@ TEST_F(Protocols, LeaveOneOutTestsEachObjectOnce) {
   EXPECT_TRUE(one.seeds.empty());
 }
 
+TEST_F(Protocols, TellWhatEachObjectWasNamed) {
+  EvaluateOptions options;
+  options.splits = 5;
+  options.split_seeds = {1, 2};
+  const Evaluation found = evaluate(shapes(), tiny_settings(), options);
+  ASSERT_EQ(found.tested.size(), 12U);
+  Confusion counted(3, std::vector<std::uint32_t>(3, 0));
+  std::size_t names = 0;
+  for (std::size_t i = 0; i < found.tested.size(); ++i) {
+    const TestedObject& object = found.tested[i];
+    EXPECT_EQ(object.file, shapes().objects[i].file);
+    EXPECT_EQ(object.category, shapes().objects[i].category);
+    for (const std::uint32_t name : object.named) {
+      ++counted[object.category][name];
+      ++names;
+    }
+  }
+  EXPECT_EQ(names, 30U);  // one of each of three categories in each of ten splits
+  EXPECT_EQ(counted, found.confusion);
+}
+
 TEST_F(Protocols, LeaveOneOutCannotTestTheOnlyObjectOfItsCategory) {
   Dataset dataset = shapes();
   bool kept = false;

@@ -10,5 +10,6 @@ std::string_view page_html();
 std::string_view page_css();
 std::string_view common_js();
 std::string_view evaluation_js();
+std::string_view sweep_js();
 
 }  // namespace spincat::embedded

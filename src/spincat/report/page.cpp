@@ -5,6 +5,7 @@
 #include "spincat/report/embedded.h"
 #include "spincat/report/json.h"
 #include "spincat/report/page_parts.h"
+#include "spincat/report/sweep_report.h"
 
 namespace spincat {
 namespace {
@@ -63,6 +64,12 @@ std::string evaluation_page(const Evaluation& evaluation, const Settings& settin
                      {"result", Json::parse(evaluation_json(evaluation, settings, options, command))},
                      {"tested", tested_objects(evaluation)}};
   return page(data, {}, {embedded::evaluation_js()});
+}
+
+std::string sweep_page(const Sweep& sweep, const Settings& settings, const EvaluateOptions& options,
+                       const std::vector<std::string>& command) {
+  const Json data = {{"kind", "sweep"}, {"result", Json::parse(sweep_json(sweep, settings, options, command))}};
+  return page(data, {}, {embedded::sweep_js()});
 }
 
 }  // namespace spincat

@@ -6,6 +6,7 @@
 
 #include "spincat/pipeline/evaluate.h"
 #include "spincat/pipeline/settings.h"
+#include "spincat/pipeline/sweep.h"
 
 namespace spincat {
 
@@ -14,5 +15,10 @@ namespace spincat {
 // Deterministic.
 std::string evaluation_page(const Evaluation& evaluation, const Settings& settings, const EvaluateOptions& options,
                             const std::vector<std::string>& command);
+
+// Rate and time against the varied setting with their spread, a heat map for two; holds sweep_json (sweep_report.h).
+// Deterministic.
+std::string sweep_page(const Sweep& sweep, const Settings& settings, const EvaluateOptions& options,
+                       const std::vector<std::string>& command);
 
 }  // namespace spincat

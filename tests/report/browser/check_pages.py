@@ -1,0 +1,160 @@
+#!/usr/bin/env python3
+"""Writes every report with the command and looks at it in a headless Chromium.
+
+    check_pages.py SPINCAT SCRATCH-FOLDER [PICTURES-FOLDER]
+
+Fails on console errors, exceptions and network requests, and when what is on a page is not what is in the JSON. Without
+Chromium it says so and ends with 77, which CTest takes as skipped.
+"""
+
+import json
+import math
+import os
+import shutil
+import subprocess
+import sys
+
+from browser import Browser, PageError, find_chromium
+
+NASTY = "<b>\"bed\" & 'x' \U0001FA91 \u05d1\u05d9\u05ea"  # quotes, angle brackets, an emoji, right-to-left letters
+SMALL = ["--points", "200", "--spin-points", "32", "--copies", "1", "--image-width", "8", "--bin-size", "0.25", "--threads", "2"]
+
+
+def check(right, what):
+    if not right:
+        raise PageError(what)
+
+
+def write_off(path, points, faces):
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("OFF\n%d %d 0\n" % (len(points), len(faces)))
+        file.writelines("%g %g %g\n" % point for point in points)
+        file.writelines("3 %d %d %d\n" % face for face in faces)
+
+
+def box(x, y, z):
+    points = [(x * i, y * j, z * k) for i in (0, 1) for j in (0, 1) for k in (0, 1)]
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    return points, [face for a, b, c, d in quads for face in ((a, b, c), (a, c, d))]
+
+
+def cone(radius, height, sides=16):
+    ring = [(radius * math.cos(2 * math.pi * i / sides), radius * math.sin(2 * math.pi * i / sides), 0) for i in range(sides)]
+    faces = [face for i in range(sides) for face in ((i, (i + 1) % sides, sides), ((i + 1) % sides, i, sides + 1))]
+    return ring + [(0, 0, height), (0, 0, 0)], faces
+
+
+def write_dataset(folder):
+    """Three categories, two of which nobody can tell apart: mistakes are certain."""
+    for name in (NASTY, "box", "cone"):
+        os.makedirs(os.path.join(folder, name))
+        for k in range(5):
+            shape = cone(0.5, 1.5 + 0.1 * k) if name == "cone" else box(1, 1 + 0.05 * k, 1.2)
+            write_off(os.path.join(folder, name, "%s %d.off" % (NASTY if k == 0 else "object", k)), *shape)
+
+
+def spincat(program, *arguments):
+    done = subprocess.run([program, *arguments], capture_output=True, text=True, encoding="utf-8", check=False)
+    check(done.returncode == 0, "%s: %s" % (" ".join(arguments), done.stderr))
+    return done.stdout
+
+
+def text(browser, selector):
+    return browser.run("document.querySelector(%s).textContent" % json.dumps(selector))
+
+
+def check_theme(browser):
+    colour = "getComputedStyle(document.body).backgroundColor"
+    before = browser.run(colour)
+    browser.run("document.getElementById('theme').click()")
+    check(browser.run(colour) != before, "the theme does not change")
+    browser.run("document.getElementById('theme').click()")
+    check(browser.run(colour) == before, "the theme does not change back")
+
+
+def check_widths(browser, path):
+    """Nothing is wider than the window, on a phone either."""
+    for width in (390, 1280):
+        browser.open(path, width=width)
+        check(browser.run("document.documentElement.scrollWidth") <= width, "wider than %d pixels" % width)
+
+
+def check_evaluation(browser, program, data, scratch):
+    page = os.path.join(scratch, "evaluation.html")
+    found = json.loads(spincat(program, "evaluate", data, "--splits", "6", "--json", "--report", page, *SMALL))
+    check_widths(browser, page)
+    for key, element in (("mean_class_rate", "#mean-class-rate"), ("overall_rate", "#overall-rate")):
+        check(text(browser, element + " .rate") == "%.3f" % found[key], key)
+        check(text(browser, element + " .spread") == "%.3f" % found[key + "_std"], key + "_std")
+        check(text(browser, element + " .interval") == "%.3f to %.3f" % tuple(found[key + "_interval"]), key + "_interval")
+    cells = browser.run("[...document.querySelectorAll('#matrix td')].map((cell) => Number(cell.textContent))")
+    check(cells == [count for row in found["confusion"] for count in row], "the confusion matrix differs")
+    heads = browser.run("[...document.querySelectorAll('#matrix th.above')].map((head) => head.textContent)")
+    check(heads == found["categories"] and NASTY in heads, "the categories differ")
+    rates = browser.run("[...document.querySelectorAll('#category-rates .number')].map((rate) => rate.textContent)")
+    check(rates == ["%.3f" % found["category_rates"][name]["rate"] for name in found["categories"]], "rates differ")
+    check(text(browser, "tr[data-key=list_checksum] .name") == found["run"]["list_checksum"], "checksum")
+    mistakes = browser.run("document.querySelectorAll('#matrix td.wrong button').length")
+    check(mistakes > 0, "no mistake to look at")
+    browser.run("document.querySelector('#matrix td.wrong button').click()")
+    times = browser.run("[...document.querySelectorAll('#cell tbody .number')].map((cell) => parseInt(cell.textContent))")
+    check(sum(times) == browser.run("Number(document.querySelector('#matrix td.wrong').textContent)"),
+          "the objects of a cell do not add up to its count")
+    check(browser.run("document.querySelectorAll('b.x, main b b').length") == 0, "a name became markup")
+    check_theme(browser)
+    return page
+
+
+def check_sweep(browser, program, data, scratch):
+    page = os.path.join(scratch, "sweep.html")
+    found = json.loads(spincat(program, "sweep", data, "--vary", "spin_points=8,16,32", "--splits", "3", "--json",
+                               "--report", page, *SMALL))
+    check_widths(browser, page)
+    shown = browser.run("[...document.querySelectorAll('#points tbody tr')].map((row) => [...row.cells].map((cell) => cell.textContent))")
+    check([[row[0], row[1]] for row in shown] ==
+          [[point["values"]["spin_points"], "%.3f ± %.3f" % (point["mean_class_rate"], point["mean_class_rate_std"])]
+           for point in found["points"]], "the points differ")
+    check(browser.run("document.querySelectorAll('svg.chart circle').length") == 3 * (2 + 5), "dots are missing")
+    check_theme(browser)
+    page_of_two = os.path.join(scratch, "sweep-of-two.html")
+    found = json.loads(spincat(program, "sweep", data, "--vary", "spin_points=8,16", "--vary", "c=1,10,100", "--splits", "3",
+                               "--json", "--report", page_of_two, *SMALL))
+    check_widths(browser, page_of_two)
+    cells = browser.run("[...document.querySelectorAll('td.right')].map((cell) => cell.textContent)")
+    check(cells == ["%.3f" % point["mean_class_rate"] for point in found["points"]], "the heat map differs")
+    return page
+
+
+def take_pictures(browser, pages, folder):
+    os.makedirs(folder, exist_ok=True)
+    for page in pages:
+        for width in (1280, 390):
+            for dark in (False, True):
+                browser.open(page, width=width, dark=dark)
+                name = os.path.splitext(os.path.basename(page))[0]
+                browser.picture(os.path.join(folder, "%s-%d-%s.png" % (name, width, "dark" if dark else "light")), whole=True)
+
+
+def main():
+    program, scratch = sys.argv[1:3]
+    if find_chromium() is None:
+        print("skipped: no chromium on this machine (scripts/packages.sh: packages_browser)")
+        return 77
+    shutil.rmtree(scratch, ignore_errors=True)
+    data = os.path.join(scratch, "data")
+    write_dataset(data)
+    with Browser() as browser:
+        pages = [check_evaluation(browser, program, data, scratch), check_sweep(browser, program, data, scratch)]
+        if len(sys.argv) > 3:
+            take_pictures(browser, pages, sys.argv[3])
+        check(not browser.complaints, "\n".join(browser.complaints))
+    print("%d pages are as they should be" % len(pages))
+    return 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except PageError as error:
+        print("check_pages: %s" % error)
+        sys.exit(1)

@@ -19,6 +19,7 @@
 #include "commands.h"
 #include "interrupt.h"
 #include "messages.h"
+#include "mpi_watch.h"
 #include "ranks.h"
 #include "spincat/error.h"
 #include "spincat/parallel/for_each.h"
@@ -102,13 +103,18 @@ int run(int argc, char** argv, TaskFarm& farm) {
 
 // Rank 0 runs the command; the others work for it and say nothing.
 int run_on_ranks(int argc, char** argv, const Launch& launch) {
+  std::unique_ptr<MpiWatch> watch = watch_start(launch);
   const std::unique_ptr<Communicator> ranks = join_ranks(launch);
+  watch.reset();
   if (ranks->rank() == 0) {
     TaskFarm farm(*ranks);
-    return report_errors([&] { return run(argc, argv, farm); });
+    const int code = report_errors([&] { return run(argc, argv, farm); });
+    watch = watch_end(launch, code);
+    return code;
   }
   const auto threads = [&](int requested) { return thread_count(requested, ranks->ranks_on_host()); };
   serve(*ranks, pipeline_work(), threads, stop_if_interrupted);
+  watch = watch_end(launch, 0);
   return 0;
 }
 

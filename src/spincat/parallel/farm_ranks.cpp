@@ -1,24 +1,13 @@
 #include "spincat/parallel/farm_ranks.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
-#include <string>
+
+#include "spincat/parallel/process_state.h"
 
 namespace spincat {
 namespace {
-
-// The state of a process as the kernel tells it: 'R' running, 'T' stopped, 'Z' dead; 0 where there is no such process.
-char state_of(std::int64_t process) {
-  std::ifstream stream(fmt::format("/proc/{}/stat", process));
-  std::string line;
-  std::getline(stream, line);
-  const std::size_t name_end = line.rfind(')');  // the name may hold anything
-  return name_end == std::string::npos || name_end + 2 >= line.size() ? '\0' : line[name_end + 2];
-}
 
 bool is_in_our_sight(const farm::Greeting& greeting) {
   static const farm::Greeting own = farm::own_greeting();
@@ -28,11 +17,7 @@ bool is_in_our_sight(const farm::Greeting& greeting) {
 }  // namespace
 
 bool TaskFarm::Rank::is_gone() const {
-  if (!is_in_our_sight(greeting)) {
-    return false;
-  }
-  const char state = state_of(greeting.process);
-  return state == '\0' || state == 'Z' || state == 'X';
+  return is_in_our_sight(greeting) && !is_there(greeting.process);
 }
 
 bool TaskFarm::Rank::should_be_given_up(Clock::duration waited) const {
@@ -40,7 +25,7 @@ bool TaskFarm::Rank::should_be_given_up(Clock::duration waited) const {
     return true;
   }
   if (is_in_our_sight(greeting)) {  // alive: at the end of a task, or stopped
-    const bool stopped = state_of(greeting.process) == 'T' && waited > std::chrono::milliseconds(500);
+    const bool stopped = is_stopped(greeting.process) && waited > std::chrono::milliseconds(500);
     if (stopped) {
       ::kill(static_cast<pid_t>(greeting.process), SIGKILL);
     }

@@ -42,10 +42,6 @@ struct TaskFarm::Rank {
   bool should_be_given_up(Clock::duration waited) const;
 };
 
-// How long a rank may say nothing before it is taken to be lost: ten times the time between two signs of life. The
-// environment variable SPINCAT_DEADLINE gives another, in seconds.
-std::chrono::duration<double> silence_deadline();
-
 // The median of the last values.
 class RunningMedian {
  public:

@@ -88,6 +88,10 @@ class TaskFarm {
   std::size_t resumed_ = 0;
 };
 
+// How long a rank may say nothing before it is taken to be lost: ten times the time between two signs of life. The
+// environment variable SPINCAT_DEADLINE gives another, in seconds.
+std::chrono::duration<double> silence_deadline();
+
 // A farm of this process's threads alone.
 class OwnFarm {
  public:

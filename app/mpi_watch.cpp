@@ -1,0 +1,149 @@
+#include "mpi_watch.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "messages.h"
+#include "spincat/parallel/process_state.h"
+#include "spincat/parallel/task_farm.h"
+
+namespace spincat::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kBetweenLooks(100);
+
+fs::path program_of(std::int64_t process) {
+  std::error_code error;
+  return fs::read_symlink(fmt::format("/proc/{}/exe", process), error);
+}
+
+// Processes that our parent has started and that run our program: the ranks of this host, as far as they have come.
+// None where the kernel does not list children.
+std::vector<std::int64_t> ranks_beside_us() {
+  std::vector<std::int64_t> ranks;
+  const pid_t parent = getppid();
+  const fs::path program = program_of(getpid());
+  std::ifstream children(fmt::format("/proc/{0}/task/{0}/children", parent));
+  for (std::int64_t child = 0; children >> child;) {
+    if (program_of(child) == program) {
+      ranks.push_back(child);
+    }
+  }
+  return ranks;
+}
+
+// What becomes of the ranks of this host. Times are in deadlines for silence: others get as long to tell more of the
+// reason, to end as they should, or to be continued.
+class Host {
+ public:
+  void look() {
+    const auto now = Clock::now();
+    for (const std::int64_t rank : ranks_beside_us()) {
+      seen_.try_emplace(rank, Seen{now, now});
+    }
+    for (auto& [rank, seen] : seen_) {
+      seen.last_there = is_there(rank) ? now : seen.last_there;
+      seen.last_running = is_stopped(rank) ? seen.last_running : now;
+    }
+  }
+
+  void kill_stopped() const {
+    for (const auto& [rank, seen] : seen_) {
+      if (since(seen.last_running) > 0.25) {
+        ::kill(static_cast<pid_t>(rank), SIGKILL);
+      }
+    }
+  }
+
+  double gone_for() const { return longest_since(&Seen::last_there); }
+  double stopped_for() const { return longest_since(&Seen::last_running); }
+  double watched_for() const { return since(start_); }
+
+ private:
+  struct Seen {
+    Clock::time_point last_there;
+    Clock::time_point last_running;
+  };
+
+  static double since(Clock::time_point then) { return (Clock::now() - then) / silence_deadline(); }
+
+  double longest_since(Clock::time_point Seen::*what) const {
+    double longest = 0.0;
+    for (const auto& [rank, seen] : seen_) {
+      longest = std::max(longest, since(seen.*what));
+    }
+    return longest;
+  }
+
+  Clock::time_point start_ = Clock::now();
+  std::map<std::int64_t, Seen> seen_;
+};
+
+// Not exit(): what it would call belongs to a thread that hangs in MPI.
+[[noreturn]] void give_up_start(const Launch& launch, const char* reason) {
+  if (launch.number == 0) {
+    message(fmt::format("{} while MPI started; the same command may be given again", reason));
+  }
+  std::_Exit(1);
+}
+
+}  // namespace
+
+MpiWatch::MpiWatch(std::function<void()> look) : look_(std::move(look)), thread_([this] { look_on(); }) {}
+
+MpiWatch::~MpiWatch() {
+  const std::lock_guard lock(mutex_);
+  over_ = true;
+  over_changed_.notify_all();
+}
+
+void MpiWatch::look_on() {
+  std::unique_lock lock(mutex_);
+  while (!over_changed_.wait_for(lock, kBetweenLooks, [&] { return over_; })) {
+    look_();
+  }
+}
+
+std::unique_ptr<MpiWatch> watch_start(const Launch& launch) {
+  if (launch.processes < 2) {
+    return nullptr;
+  }
+  return std::make_unique<MpiWatch>([launch, host = Host()]() mutable {
+    host.look();
+    if (host.gone_for() > 1.0) {
+      give_up_start(launch, "a rank was lost");
+    }
+    if (host.stopped_for() > 5.0 || host.watched_for() > 30.0) {
+      give_up_start(launch, "a rank did not answer");
+    }
+  });
+}
+
+std::unique_ptr<MpiWatch> watch_end(const Launch& launch, int exit_code) {
+  if (launch.processes < 2) {
+    return nullptr;
+  }
+  return std::make_unique<MpiWatch>([exit_code, host = Host()]() mutable {
+    host.look();
+    host.kill_stopped();
+    if (host.gone_for() > 2.0 || host.watched_for() > 15.0) {
+      std::_Exit(exit_code);
+    }
+  });
+}
+
+}  // namespace spincat::app

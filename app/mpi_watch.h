@@ -1,0 +1,40 @@
+// Keeps MPI's start and end, which wait for every rank, from waiting for one that was lost.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "ranks.h"
+
+namespace spincat::app {
+
+// Has a thread look every tenth of a second, until this object goes.
+class MpiWatch {
+ public:
+  explicit MpiWatch(std::function<void()> look);
+  ~MpiWatch();
+  MpiWatch(const MpiWatch&) = delete;
+  MpiWatch& operator=(const MpiWatch&) = delete;
+
+ private:
+  void look_on();
+
+  const std::function<void()> look_;
+  std::mutex mutex_;
+  std::condition_variable over_changed_;
+  bool over_ = false;  // guarded by mutex_
+  std::jthread thread_;
+};
+
+// While MPI starts: ends this process with a line that says so when a rank beside it has gone or stays stopped, or after
+// thirty deadlines for silence. Nothing is lost by then: the journal has what an earlier run finished.
+std::unique_ptr<MpiWatch> watch_start(const Launch& launch);
+
+// While MPI ends: kills ranks of this host that stay stopped, and ends this process with its exit code when a rank
+// beside it has long gone, or after fifteen deadlines. Whatever the command had to write is complete by then.
+std::unique_ptr<MpiWatch> watch_end(const Launch& launch, int exit_code);
+
+}  // namespace spincat::app

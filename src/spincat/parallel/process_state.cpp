@@ -1,0 +1,31 @@
+#include "spincat/parallel/process_state.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <string>
+
+namespace spincat {
+namespace {
+
+// 'R' running, 'T' stopped, 'Z' dead, ... (man 5 proc); 0 where there is no such process.
+char state_of(std::int64_t process) {
+  std::ifstream stream(fmt::format("/proc/{}/stat", process));
+  std::string line;
+  std::getline(stream, line);
+  const std::size_t name_end = line.rfind(')');  // the name may hold anything
+  return name_end == std::string::npos || name_end + 2 >= line.size() ? '\0' : line[name_end + 2];
+}
+
+}  // namespace
+
+bool is_there(std::int64_t process) {
+  const char state = state_of(process);
+  return state != '\0' && state != 'Z' && state != 'X';
+}
+
+bool is_stopped(std::int64_t process) {
+  return state_of(process) == 'T';
+}
+
+}  // namespace spincat

@@ -58,9 +58,12 @@ FeatureVector encoded(const OrientedPoints& surface, const OrientedPoints& spin_
   return sums->finish(values);
 }
 
-// The recipe again, step by step and slowly: bands by counting who comes before, moments from lists of values.
+constexpr std::size_t kNone = ~std::size_t{0};
+
+// The recipe again, step by step and slowly: bands by counting who comes before, moments from lists of values, of all
+// images but `left_out`.
 std::vector<double> by_recipe(const OrientedPoints& surface, const OrientedPoints& spin_points,
-                              const SpinImages& images) {
+                              const SpinImages& images, std::size_t left_out = kNone) {
   Eigen::Vector3d g = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < surface.size(); ++i) {
     g += surface.position(i).cast<double>() / static_cast<double>(surface.size());
@@ -105,7 +108,7 @@ std::vector<double> by_recipe(const OrientedPoints& surface, const OrientedPoint
         for (std::size_t cell = 0; cell < cells * cells; ++cell) {
           std::vector<double> values;
           for (std::size_t k = 0; k < m; ++k) {
-            if (band[k] != b) {
+            if (band[k] != b || k == left_out) {
               continue;
             }
             double sum = 0.0;
@@ -257,6 +260,85 @@ TEST(PooledPyramid, RefusesImagesThatItCannotReduce) {
   params.image_width = 16;
   params.convention = SpinConvention::pcl;
   EXPECT_NE(input_error([&] { encoding->check(params); }).find("johnson convention"), std::string::npos);
+}
+
+TEST(PooledPyramid, WithoutAnImageIsTheRecipeWithoutIt) {
+  Random random(11);
+  const SpinImageParams params = soft_images(8);
+  const OrientedPoints surface = random_points(50, random);
+  for (const std::size_t count : {1U, 4U, 13U}) {  // with 1 and 4 a band loses its only image
+    const OrientedPoints spin_points = random_points(count, random);
+    const SpinImages images = random_images(count, params.shape(), random);
+    const auto object = make_pooled_pyramid()->begin(surface, spin_points, params);
+    std::vector<double> sums(object->size(), 0.0);
+    object->accumulate(block_of(images, 0, count), sums);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t first = k / 3 * 3;  // whatever block it comes in
+      const SpinImageBlock block = block_of(images, first, std::min<std::size_t>(3, count - first));
+      const std::vector<float> found = object->finish_without(block, k - first, sums).values;
+      const std::vector<double> expected = by_recipe(surface, spin_points, images, k);
+      ASSERT_EQ(found.size(), expected.size());
+      for (std::size_t j = 0; j < found.size(); ++j) {
+        ASSERT_NEAR(found[j], expected[j], 2e-6) << count << " points, without " << k << ", feature " << j;
+      }
+    }
+  }
+}
+
+TEST(PooledPyramid, SharesOfAllImagesAddUp) {
+  Random random(12);
+  const SpinImageParams params = soft_images(8);
+  const OrientedPoints surface = random_points(50, random);
+  const OrientedPoints spin_points = random_points(13, random);
+  const SpinImages images = random_images(13, params.shape(), random);
+  const auto object = make_pooled_pyramid()->begin(surface, spin_points, params);
+  std::vector<double> sums(object->size(), 0.0);
+  object->accumulate(block_of(images, 0, 13), sums);
+  const std::vector<float> values = object->finish(sums).values;
+  std::vector<float> weights(values.size());
+  double product = 0.0;
+  for (std::size_t j = 0; j < values.size(); ++j) {
+    weights[j] = static_cast<float>(random.normal());
+    product += static_cast<double>(weights[j]) * static_cast<double>(values[j]);
+  }
+  std::vector<double> shares(13, 0.0);
+  EXPECT_TRUE(object->add_shares(block_of(images, 0, 6), sums, weights, shares));
+  EXPECT_TRUE(object->add_shares(block_of(images, 6, 7), sums, weights, shares));
+  double sum = 0.0;
+  for (const double share : shares) {
+    sum += share;
+  }
+  EXPECT_NEAR(sum, product, 1e-5);
+}
+
+TEST(PooledPyramid, AMeanIsSharedByTheRootsAndADeviationByTheirDistances) {
+  // Two points of one band (the last of five) with roots 1 and 3 in one bin: mean 2, deviation 1. Of the mean 1 and 3
+  // quarters are theirs, of the deviation half each.
+  const SpinImageParams params = soft_images(8);
+  OrientedPoints spin_points(5);
+  for (std::size_t k = 0; k < 5; ++k) {
+    spin_points.set(k, Eigen::Vector3f(static_cast<float>(k), 0, 0), Eigen::Vector3f::UnitX());
+  }
+  SpinImages images(5, params.shape());
+  const std::size_t bin = 3 * 8;  // channel 0, row 3, column 0: cell 0 of level 0
+  images.image(3)[bin] = 1.0F;
+  images.image(4)[bin] = 9.0F;
+  const auto object = make_pooled_pyramid()->begin(OrientedPoints(1), spin_points, params);
+  std::vector<double> sums(object->size(), 0.0);
+  object->accumulate(block_of(images, 0, 5), sums);
+  const std::vector<float> values = object->finish(sums).values;
+  const std::size_t mean = 3 * (2 * 2 * 4);  // band 3 of level 0: bands of 2 channels, 2 moments, 4 cells
+  const std::size_t deviation = mean + 4;
+  ASSERT_NEAR(values[mean], 2.0 / std::sqrt(15.0), 1e-6);  // of length 1 / sqrt(3), 4 + 1 squared
+  for (const auto& [feature, first] : {std::pair(mean, 0.25), std::pair(deviation, 0.5)}) {
+    std::vector<float> weights(values.size(), 0.0F);
+    weights[feature] = 1.0F;
+    std::vector<double> shares(5, 0.0);
+    ASSERT_TRUE(object->add_shares(block_of(images, 0, 5), sums, weights, shares));
+    EXPECT_NEAR(shares[3], first * static_cast<double>(values[feature]), 1e-6);
+    EXPECT_NEAR(shares[4], (1.0 - first) * static_cast<double>(values[feature]), 1e-6);
+    EXPECT_EQ(shares[0] + shares[1] + shares[2], 0.0);
+  }
 }
 
 }  // namespace

@@ -121,5 +121,58 @@ TEST(BagOfFeatures, AnyImageWillDo) {
   EXPECT_EQ(encoded(*make_bag_of_features(), params, 2, 10).local_size, 90U);  // 9 x 17 bins: 9 x 10 cells
 }
 
+TEST(MeanImage, WithoutAnImageIsTheMeanOfTheOthers) {
+  const SpinImageParams params = soft_params(3);
+  const auto object = make_mean_image()->begin(OrientedPoints(10), OrientedPoints(4), params);
+  const SpinImageBlock all{0, numbered_images(4, params)};
+  std::vector<double> sums(object->size(), 0.0);
+  object->accumulate(all, sums);
+  // Without image 3 what encoded() gives of the first three.
+  const std::vector<float> expected = encoded(*make_mean_image(), params, 3, 10).values;
+  const std::vector<float> found = object->finish_without(all, 3, sums).values;
+  for (std::size_t bin = 0; bin < expected.size(); ++bin) {
+    EXPECT_NEAR(found[bin], expected[bin], 1e-6);
+  }
+}
+
+TEST(Shares, OfMeanImageAndConcatenationAddUpImageByImage) {
+  const SpinImageParams params = soft_params(3);
+  for (const char* const name : {"mean-image", "concatenation"}) {
+    const auto object = make_encoding(name)->begin(OrientedPoints(10), OrientedPoints(4), params);
+    const SpinImageBlock all{0, numbered_images(4, params)};
+    std::vector<double> sums(object->size(), 0.0);
+    object->accumulate(all, sums);
+    const std::vector<float> values = object->finish(sums).values;
+    std::vector<float> weights(values.size());
+    double product = 0.0;
+    for (std::size_t j = 0; j < weights.size(); ++j) {
+      weights[j] = static_cast<float>(j % 7) - 2.0F;
+      product += static_cast<double>(weights[j]) * static_cast<double>(values[j]);
+    }
+    std::vector<double> shares(4, 0.0);
+    ASSERT_TRUE(object->add_shares(all, sums, weights, shares)) << name;
+    EXPECT_NEAR(shares[0] + shares[1] + shares[2] + shares[3], product, 1e-5) << name;
+    EXPECT_NE(shares[0], shares[3]) << name;
+  }
+}
+
+TEST(BagOfFeatures, WithoutAnImageOthersTakeItsPlace) {
+  const SpinImageParams params = soft_params(4);
+  const auto object = make_bag_of_features()->begin(OrientedPoints(10), OrientedPoints(3), params);
+  const SpinImageBlock all{0, numbered_images(3, params)};
+  std::vector<double> sums(object->size(), 0.0);
+  object->accumulate(all, sums);
+  const std::vector<float> with_all = object->finish(sums).values;
+  const std::vector<float> found = object->finish_without(all, 1, sums).values;
+  ASSERT_EQ(found.size(), with_all.size());
+  for (std::size_t i = 0; i < 32; ++i) {
+    EXPECT_EQ(found[i], with_all[i]);
+    EXPECT_EQ(found[32 + i], with_all[64 + i]);
+    EXPECT_EQ(found[64 + i], with_all[i]);
+  }
+  std::vector<double> shares(3, 0.0);
+  EXPECT_FALSE(object->add_shares(all, sums, std::vector<float>(with_all.size()), shares));
+}
+
 }  // namespace
 }  // namespace spincat

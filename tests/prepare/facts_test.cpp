@@ -24,7 +24,9 @@ TEST(Facts, OfASoundMesh) {
   EXPECT_TRUE(facts.is_mesh);
   EXPECT_EQ(facts.points, 8U);
   EXPECT_EQ(facts.triangles, 12U);
-  EXPECT_EQ(facts.repeated_points + facts.unused_vertices + facts.flat_triangles + facts.repeated_triangles, 0U);
+  EXPECT_EQ(facts.repeated_points + facts.unused_vertices + facts.flat_triangles + facts.repeated_triangles +
+                facts.flipped_triangles,
+            0U);
   EXPECT_EQ(facts.low, Vec3(-0.5, -1.0, -1.5));
   EXPECT_EQ(facts.high, Vec3(0.5, 1.0, 1.5));
   EXPECT_DOUBLE_EQ(facts.area, 22.0);

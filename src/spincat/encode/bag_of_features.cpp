@@ -33,13 +33,25 @@ class BagSums final : public Encoding::ObjectSums {
   FeatureVector finish(std::span<const double> sums) const override {
     FeatureVector features{{}, {}, "bag-of-features", static_cast<std::uint32_t>(local_size())};
     features.values.reserve(kLocalFeatures * local_size());
+    const std::size_t images = sums.size() / local_size();
     for (std::size_t i = 0; i < kLocalFeatures; ++i) {
-      for (const double cell : sums.subspan(i % images_ * local_size(), local_size())) {
+      for (const double cell : sums.subspan(i % images * local_size(), local_size())) {
         features.values.push_back(static_cast<float>(std::sqrt(cell * scale_)));
       }
     }
     features.blocks = {static_cast<std::uint32_t>(features.values.size())};
     return features;
+  }
+
+  // As an object with one image fewer, whose place others take. The only image stays.
+  FeatureVector finish_without(const SpinImageBlock& block, std::size_t k,
+                               std::span<const double> sums) const override {
+    std::vector<double> rest(sums.begin(), sums.end());
+    if (block.first + k < images_ && images_ > 1) {
+      const auto begin = rest.begin() + static_cast<std::ptrdiff_t>((block.first + k) * local_size());
+      rest.erase(begin, begin + static_cast<std::ptrdiff_t>(local_size()));
+    }
+    return finish(rest);
   }
 
  private:

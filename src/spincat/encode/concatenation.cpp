@@ -24,6 +24,18 @@ class ConcatenatedSums final : public Encoding::ObjectSums {
     return {{values.begin(), values.end()}, {static_cast<std::uint32_t>(values.size())}, "concatenation"};
   }
 
+  bool add_shares(const SpinImageBlock& block, std::span<const double> sums, std::span<const float> weights,
+                  std::span<double> shares) const override {
+    const std::size_t image = block.images.shape().size();
+    const std::vector<float> values = finish(sums).values;
+    for (std::size_t k = block.first; k < block.first + block.images.count(); ++k) {
+      for (std::size_t i = k * image; i < (k + 1) * image; ++i) {
+        shares[k] += static_cast<double>(weights[i]) * static_cast<double>(values[i]);
+      }
+    }
+    return true;
+  }
+
  private:
   std::size_t size_;
 };

@@ -55,6 +55,24 @@ class Encoding::ObjectSums {
 
   // Deterministic in `sums`.
   virtual FeatureVector finish(std::span<const double> sums) const = 0;
+
+  // For encodings whose features are sums over the images, once the lengths, means and deviations in them are held at
+  // what they are in `sums` (those of all blocks): adds to shares[first + k] what image k of the block gives to
+  // weights . finish(sums).values. The shares of all images add up to that product. False, and nothing done, where the
+  // encoding knows no such shares.
+  virtual bool add_shares(const SpinImageBlock& /*block*/, std::span<const double> /*sums*/,
+                          std::span<const float> /*weights*/, std::span<double> /*shares*/) const {
+    return false;
+  }
+
+  // What `finish` would give without image k of the block, all that `begin` knew of the points held; `sums` are those
+  // of all blocks. Encodings of a fixed number of images get an empty one instead, unless they say otherwise.
+  // Deterministic.
+  virtual FeatureVector finish_without(const SpinImageBlock& block, std::size_t k, std::span<const double> sums) const;
+
+ protected:
+  // What image k of the block gives to the sums.
+  std::vector<double> sums_of_image(const SpinImageBlock& block, std::size_t k) const;
 };
 
 // The paper's: the rows of each image one after the other, the images one after the other, in the order of the spin

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "spincat/encode/encoding.h"
@@ -25,6 +27,17 @@ class MeanImageSums final : public Encoding::ObjectSums {
     std::vector<double> values(sums.begin(), sums.end());
     scale_to_length(values, 1.0);  // a mean, then: the number of images cancels
     return {{values.begin(), values.end()}, {static_cast<std::uint32_t>(size_)}, "mean-image"};
+  }
+
+  // A feature is the sum of the images' bins over the length of all sums.
+  bool add_shares(const SpinImageBlock& block, std::span<const double> sums, std::span<const float> weights,
+                  std::span<double> shares) const override {
+    const double length = std::sqrt(std::inner_product(sums.begin(), sums.end(), sums.begin(), 0.0));
+    for (std::size_t k = 0; k < block.images.count() && length > 0.0; ++k) {
+      const std::span<const float> image = block.images.image(k);
+      shares[block.first + k] += std::inner_product(image.begin(), image.end(), weights.begin(), 0.0) / length;
+    }
+    return true;
   }
 
  private:

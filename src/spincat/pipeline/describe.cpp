@@ -139,6 +139,19 @@ Preparation prepare_object(const Object& object, const Settings& settings, int c
   return prepare_part(changed ? *changed : object, settings, parts_of(settings)[0], seed_of(settings, copy, 0));
 }
 
+std::vector<PreparedPart> prepare_parts(const Object& object, const Settings& settings) {
+  const std::vector<Part> parts = parts_of(settings);
+  const float factor = 1.0F / std::sqrt(static_cast<float>(parts.size())) / static_cast<float>(settings.draws);
+  std::vector<PreparedPart> prepared;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    for (int draw = 0; draw < settings.draws; ++draw) {
+      prepared.push_back({prepare_part(object, settings, parts[p], seed_of(settings, 0, draw)), parts[p].surface,
+                          parts[p].axes, p, factor});
+    }
+  }
+  return prepared;
+}
+
 FeatureVector describe(const Object& object, const Settings& settings, int copy, StageSeconds* seconds,
                        const EncodePrepared& elsewhere) {
   StageSeconds spent;

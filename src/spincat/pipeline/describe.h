@@ -1,10 +1,13 @@
 // One object to its feature vector: prepare, spin, encode.
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <vector>
 
 #include "spincat/encode/feature_vector.h"
 #include "spincat/geometry/object.h"
+#include "spincat/geometry/up_axis.h"
 #include "spincat/pipeline/settings.h"
 #include "spincat/prepare/prepare.h"
 #include "spincat/spin/params.h"
@@ -42,5 +45,18 @@ FeatureVector describe(const Object& object, const Settings& settings, int copy 
 // number `copy`; the first part's first draw. Deterministic. Throws as describe does, and when the bin size is out of
 // range for this object.
 Preparation prepare_object(const Object& object, const Settings& settings, int copy = 0);
+
+// What one part of an object's feature vector is made of, in one draw of its points.
+struct PreparedPart {
+  Preparation preparation;
+  SurfaceKind surface = SurfaceKind::external;
+  UpAxis axes = UpAxis::none;  // which way the axes of the spin images point; none: along the normals
+  std::size_t part = 0;        // its place in the feature vector: all parts are of one length
+  float factor = 1.0F;         // what its encoding is multiplied by, before the draws of a part are added up
+};
+
+// All parts of the feature vector that describe gives of the object, in their order, draw by draw. Deterministic.
+// Throws as prepare_object does.
+std::vector<PreparedPart> prepare_parts(const Object& object, const Settings& settings);
 
 }  // namespace spincat

@@ -1,11 +1,11 @@
 #include "spincat/prepare/facts.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <variant>
 #include <vector>
 
+#include "spincat/prepare/defects.h"
 #include "spincat/prepare/normals.h"
 #include "spincat/prepare/repeats.h"
 #include "spincat/prepare/resolution.h"
@@ -31,25 +31,16 @@ std::size_t count_unused(const Mesh& mesh) {
   return static_cast<std::size_t>(std::ranges::count(used, false));
 }
 
-void add_mesh_facts(const Mesh& mesh, std::span<const std::uint32_t> first, ObjectFacts& facts) {
+void add_mesh_facts(const Mesh& mesh, ObjectFacts& facts) {
   facts.triangles = mesh.triangles.size();
   facts.unused_vertices = count_unused(mesh);
-  const std::vector<Vec3> normals = face_area_normals(mesh);
-  std::vector<Triangle> corners;
-  for (std::size_t f = 0; f < normals.size(); ++f) {
-    const double area = normals[f].norm();
-    facts.area += area;
-    if (area > 0.0) {
-      const Triangle& t = mesh.triangles[f];
-      Triangle sorted = {first[t[0]], first[t[1]], first[t[2]]};
-      std::ranges::sort(sorted);
-      corners.push_back(sorted);
-    } else {
-      ++facts.flat_triangles;
-    }
+  for (const Vec3& normal : face_area_normals(mesh)) {
+    facts.area += normal.norm();
   }
-  std::ranges::sort(corners);
-  facts.repeated_triangles = std::ranges::unique(corners).size();
+  const MeshDefects defects = defects_of(mesh);
+  facts.flat_triangles = defects.flat.size();
+  facts.repeated_triangles = defects.repeated.size();
+  facts.flipped_triangles = defects.flipped.size();
   facts.resolution = mesh_resolution(mesh);
 }
 
@@ -80,7 +71,7 @@ ObjectFacts facts_of(const Object& object) {
   const std::vector<std::uint32_t> first = first_at_position(points);
   facts.repeated_points = count_repeated(first);
   if (mesh != nullptr) {
-    add_mesh_facts(*mesh, first, facts);
+    add_mesh_facts(*mesh, facts);
   } else {
     facts.has_normals = !cloud->normals.empty();
     facts.resolution = cloud_resolution(distinct(points, first));

@@ -15,6 +15,7 @@ struct ObjectFacts {
   std::size_t unused_vertices = 0;     // that no triangle uses
   std::size_t flat_triangles = 0;      // without area
   std::size_t repeated_triangles = 0;  // with the corners of an earlier one, either way round; flat ones not counted
+  std::size_t flipped_triangles = 0;   // that look the other way than those they hang together with; see defects.h
   bool has_normals = false;            // a cloud that brings its own
   Vec3 low = Vec3::Zero();             // bounding box, in the file's unit
   Vec3 high = Vec3::Zero();

@@ -1,8 +1,8 @@
 #include "spincat/pipeline/evaluate.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
+#include <cstdio>
 #include <memory>
 
 #include "command_line.h"
@@ -15,6 +15,7 @@
 #include "spincat/error.h"
 #include "spincat/io/file.h"
 #include "spincat/parallel/task_farm.h"
+#include "spincat/report/confusion_picture.h"
 #include "spincat/report/json.h"
 #include "spincat/report/page.h"
 #include "spincat/report/text.h"
@@ -22,8 +23,6 @@
 
 namespace spincat::app {
 namespace {
-
-constexpr std::size_t kPipeWidth = 160;  // a pipe is taken to be wide
 
 struct EvaluateArguments {
   DatasetArguments dataset;
@@ -68,6 +67,11 @@ Evaluation run_protocol(const EvaluateArguments& a, const Settings& settings, co
   return evaluate(dataset, settings, options, progress);
 }
 
+// report.html and ".confusion.png": report.confusion.png.
+std::filesystem::path beside(std::filesystem::path report, const char* ending) {
+  return report.replace_extension(ending);
+}
+
 // Which files an evaluation works on: its arguments and what lies below them.
 std::string data_identity(const EvaluateArguments& a) {
   FilesIdentity data;
@@ -100,6 +104,10 @@ int run_evaluate(const EvaluateArguments& arguments, TaskFarm& farm) {
     options.strangers = read_objects(arguments.unknown, arguments.unknown_models);
   }
   check_report(arguments.report);
+  if (!arguments.report.empty()) {
+    check_writable(beside(arguments.report, ".confusion.svg"));
+    check_writable(beside(arguments.report, ".confusion.png"));
+  }
   Evaluation evaluation;
   {
     ProgressBar bar(arguments.run);
@@ -107,15 +115,20 @@ int run_evaluate(const EvaluateArguments& arguments, TaskFarm& farm) {
   }
   report_left_out(evaluation.left_out, arguments.run);
   report_skipped(evaluation.skipped, arguments.run);
-  if (!arguments.report.empty()) {
-    write_file_atomically(arguments.report, evaluation_page(evaluation, settings, options, command_line()));
-  }
-  run.finish();
   if (arguments.run.json) {
     fmt::print("{}\n", evaluation_json(evaluation, settings, options, command_line()));
   } else {
-    fmt::print("{}", evaluation_text(evaluation, terminal_width(STDOUT_FILENO, kPipeWidth)));
+    fmt::print("{}",
+               evaluation_text(evaluation, terminal_width(STDOUT_FILENO, kPipeWidth), shows_colours(STDOUT_FILENO)));
   }
+  std::fflush(stdout);
+  if (!arguments.report.empty()) {  // after the numbers: a full disk must not cost them
+    write_file_atomically(arguments.report, evaluation_page(evaluation, settings, options, command_line()));
+    const std::string picture = confusion_svg(evaluation);
+    write_file_atomically(beside(arguments.report, ".confusion.svg"), picture);
+    write_file_atomically(beside(arguments.report, ".confusion.png"), png_of_svg(picture));
+  }
+  run.finish();
   return 0;
 }
 

@@ -2,32 +2,60 @@
 
 #include <memory>
 
+#include "command_line.h"
 #include "commands.h"
 #include "options.h"
+#include "spincat/error.h"
 #include "spincat/io/file.h"
 #include "spincat/io/read_object.h"
+#include "spincat/pipeline/describe.h"
 #include "spincat/pipeline/model.h"
 #include "spincat/prepare/facts.h"
 #include "spincat/report/json.h"
+#include "spincat/report/object_page.h"
 #include "spincat/report/text.h"
+#include "terminal.h"
 
 namespace spincat::app {
 namespace {
 
 struct InfoArguments {
   std::filesystem::path file;
+  std::filesystem::path report;
+  SettingsArguments settings;
   bool json = false;
+  bool quiet = false;
 };
 
-int run_info(const InfoArguments& arguments) {
-  const std::string name = arguments.file.string();
-  if (is_model_file(arguments.file)) {
-    const Model model = read_model(arguments.file);
-    fmt::print("{}", arguments.json ? model_json(name, model) + "\n" : model_text(model));
-  } else {
-    const ObjectFacts facts = facts_of(read_object(arguments.file));
-    fmt::print("{}", arguments.json ? object_json(name, facts) + "\n" : object_text(facts));
+int run_on_model(const InfoArguments& arguments) {
+  if (!arguments.report.empty()) {
+    throw InputError(arguments.file.string(), "is a model, and --report shows an object");
   }
+  const Model model = read_model(arguments.file);
+  fmt::print("{}", arguments.json ? model_json(arguments.file.string(), model) + "\n"
+                                  : model_text(model, terminal_width(STDOUT_FILENO, 0)));
+  return 0;
+}
+
+int run_info(const InfoArguments& arguments) {
+  if (is_model_file(arguments.file)) {
+    return run_on_model(arguments);
+  }
+  check_report(arguments.report);
+  const std::string name = arguments.file.string();
+  const Settings settings = arguments.settings.settings();
+  const Object object = read_object(arguments.file);
+  if (!arguments.report.empty()) {
+    Preparation prepared;
+    try {
+      prepared = prepare_object(object, settings);
+    } catch (const InputError& error) {
+      throw InputError(name, error.problem());
+    }
+    write_file_atomically(arguments.report, object_page(name, object, prepared, settings, command_line()));
+  }
+  const ObjectFacts facts = facts_of(object);
+  fmt::print("{}", arguments.json ? object_json(name, facts) + "\n" : object_text(facts));
   return 0;
 }
 
@@ -38,10 +66,13 @@ Command add_info(CLI::App& parent) {
   CLI::App* command = parent.add_subcommand("info", "Tell what a model or an object file holds");
   command->footer(
       "Example:\n"
-      "  spincat info chair.obj\n"
+      "  spincat info chair.obj --report chair.html\n"
       "  spincat info furniture.spincat --json");
   command->add_option("file", arguments->file, "A model or an object")->type_name("FILE")->required();
+  add_report_option(*command, arguments->report);
   command->add_flag("--json", arguments->json, "Print JSON for programs");
+  command->add_flag("--quiet", arguments->quiet, "No notes on standard error, only errors");
+  arguments->settings.add_spin_options_to(*command);
   return [arguments](TaskFarm&) { return run_info(*arguments); };
 }
 

@@ -17,6 +17,7 @@
 
 #include "command_line.h"
 #include "commands.h"
+#include "help_format.h"
 #include "interrupt.h"
 #include "messages.h"
 #include "mpi_watch.h"
@@ -73,11 +74,12 @@ int run(int argc, char** argv, TaskFarm& farm) {
   CLI::App cli(
       "spincat learns object categories from 3D models by spin images and pairwise judges, and names new ones.",
       "spincat");
+  cli.formatter(std::make_shared<HelpFormat>());  // before the commands, which take it over
   cli.footer(
       "Example:\n"
-      "  spincat train models/ -o models.spincat       learn: models/ has a sub-folder per category\n"
-      "  spincat classify models.spincat new.obj       name an object\n"
-      "  spincat evaluate models/                      measure how often the names are right\n"
+      "  spincat train models/ -o my.spincat      learn: a sub-folder per category\n"
+      "  spincat classify my.spincat new.obj      name an object\n"
+      "  spincat evaluate models/                 measure how often the names are right\n"
       "spincat COMMAND --help tells more.");
   cli.set_version_flag("--version", "spincat " SPINCAT_VERSION);
   cli.require_subcommand(1);

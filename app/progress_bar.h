@@ -28,7 +28,6 @@ class ProgressBar {
  private:
   using Clock = std::chrono::steady_clock;
   bool enabled_ = false;
-  std::size_t width_ = 80;
   bool drawn_ = false;
   std::string stage_;
   Clock::time_point stage_start_ = Clock::now();

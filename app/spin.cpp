@@ -223,8 +223,8 @@ Command add_spin(CLI::App& parent) {
   CLI::App* command = parent.add_subcommand("spin", "Make the spin images themselves, for other tools");
   command->footer(
       "Example:\n"
-      "  spincat spin scan.ply -o images.npy --points-output points.npy    an image at every point\n"
-      "  spincat spin chair.obj -o sheet.png --surface samples --bin-size 0.1rel --image-width 20\n"
+      "  spincat spin scan.ply -o images.npy --points-output points.npy\n"
+      "  spincat spin chair.obj -o sheet.png --surface samples --bin-size 0.1rel\n"
       "Without --spin-points there is an image at every surface point, in the order of the file's points that are "
       "used.");
   command->add_option("file", arguments->file, "An object")->type_name("FILE")->required();

@@ -14,6 +14,7 @@
 #include "spincat/io/file.h"
 #include "spincat/report/page.h"
 #include "spincat/report/sweep_report.h"
+#include "terminal.h"
 
 namespace spincat::app {
 namespace {
@@ -85,7 +86,7 @@ int run_sweep(const SweepArguments& arguments) {
   if (!arguments.report.empty()) {
     write_file_atomically(arguments.report, sweep_page(found, settings, options, command_line()));
   }
-  fmt::print("{}", arguments.run.json ? json : sweep_text(found));
+  fmt::print("{}", arguments.run.json ? json : sweep_text(found, terminal_width(STDOUT_FILENO, kPipeWidth)));
   return 0;
 }
 
@@ -97,7 +98,7 @@ Command add_sweep(CLI::App& parent) {
   command->footer(
       "Example:\n"
       "  spincat sweep furniture/ --vary bin_size=0.02,0.05,0.1 -o bins.csv\n"
-      "  spincat sweep furniture/ --vary spin_points=64,128,256 --vary c=3,30,300 --split-seeds 1-4\n"
+      "  spincat sweep furniture/ --vary spin_points=64,128 --vary c=3,30,300\n"
       "Settings have the names that they have in --json. An interrupted sweep with -o goes on where it stopped when it "
       "is\nasked for again: FILE.journal knows what is done.");
   arguments->dataset.add_to(*command);

@@ -15,6 +15,7 @@
 #include "spincat/pipeline/stopwatch.h"
 #include "spincat/report/json.h"
 #include "spincat/report/text.h"
+#include "terminal.h"
 
 namespace spincat::app {
 namespace {
@@ -72,7 +73,8 @@ int run_train(const TrainArguments& arguments, TaskFarm& farm) {
   if (arguments.run.json) {
     fmt::print("{}\n", training_json(arguments.output.string(), result));
   } else {
-    fmt::print("{}wrote {} in {}\n", model_text(result.model), arguments.output.string(), human_seconds(watch.lap()));
+    fmt::print("{}wrote {} in {}\n", model_text(result.model, terminal_width(STDOUT_FILENO, 0)),
+               arguments.output.string(), human_seconds(watch.lap()));
   }
   return 0;
 }

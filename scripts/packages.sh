@@ -9,6 +9,9 @@ packages_build=(
   libsvm-dev           # the solver of the judges' SVMs
   libtinygltf-dev      # glTF and GLB files
   liblodepng-dev       # PNG files
+  libmeshoptimizer-dev # objects small enough for a report
+  libjs-three          # and the script that draws them in 3D
+  librsvg2-dev pkgconf # the confusion matrix as a PNG file
   nlohmann-json3-dev   # model files, JSON
   libcli11-dev         # command line
   libfmt-dev           # formatting

@@ -132,7 +132,7 @@ TEST_F(Command, ClassifyJsonHasThePromisedKeysALine) {
   EXPECT_EQ(named.at("judges").size(), 1U);
   const Json failed = Json::parse(rows[1]);
   EXPECT_EQ(failed.at("file"), "missing.off");
-  EXPECT_EQ(failed.at("error"), "missing.off: no such file");
+  EXPECT_EQ(failed.at("error"), "no such file");
 }
 
 TEST_F(Command, ClassifyAnswersUnknownBelowTheConfidenceAskedFor) {
@@ -483,6 +483,52 @@ TEST_F(Command, EverySubcommandHasHelpWithAnExample) {
     EXPECT_EQ(result.err, "");
   }
   EXPECT_EQ(run("--version").out.rfind("spincat ", 0), 0U);
+}
+
+// A page without its times and the command line, which are its run's own.
+std::string lasting_part(std::string page) {
+  for (const char* const key : {"\"milliseconds\":", "\"command\":["}) {
+    for (std::size_t at = page.find(key); at != std::string::npos; at = page.find(key, at + 1)) {
+      const std::size_t begin = at + std::strlen(key);
+      page.erase(begin, page.find_first_of("}]", begin) - begin);
+    }
+  }
+  return page;
+}
+
+TEST_F(Command, ClassifyReportIsTheSameWhateverTheThreads) {
+  train();
+  for (const int threads : {1, 3}) {
+    const Result result =
+        run(fmt::format("classify shapes.spincat 'new box.off' missing.off new-cone.off shapes/cone "
+                        "--threads {0} --report {0}.html",
+                        threads));
+    EXPECT_EQ(result.code, 2);
+    EXPECT_EQ(result.err, "spincat: missing.off: no such file\nspincat: 1 of 9 objects could not be named\n");
+  }
+  const std::string one = lasting_part(contents(dir_.path() / "1.html"));
+  EXPECT_GT(one.size(), 900'000U);  // with what draws it
+  EXPECT_NE(one.find("id=\"object-8\""), std::string::npos);
+  EXPECT_TRUE(one == lasting_part(contents(dir_.path() / "3.html")));
+}
+
+TEST_F(Command, EvaluateReportBringsItsPictures) {
+  make_shapes();
+  const Result result = run("evaluate shapes --splits 2 --copies 0 --points 200 --spin-points 16 --report r.html");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(contents(dir_.path() / "r.confusion.svg").substr(0, 4), "<svg");
+  EXPECT_EQ(contents(dir_.path() / "r.confusion.png").substr(1, 3), "PNG");
+}
+
+TEST_F(Command, InfoReportShowsObjectsOnly) {
+  train();
+  EXPECT_EQ(run("info new-cone.off --quiet --report cone.html").code, 0);
+  EXPECT_EQ(contents(dir_.path() / "cone.html").substr(0, 15), "<!doctype html>");
+  const Result refused = run("info shapes.spincat --report model.html");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_EQ(refused.err, "spincat: shapes.spincat: is a model, and --report shows an object\n");
+  EXPECT_EQ(run("info new-cone.off --report cone.txt").code, 2);
+  EXPECT_FALSE(fs::exists(dir_.path() / "model.html"));
 }
 
 }  // namespace

@@ -68,6 +68,44 @@ TEST(TextTable, AlignsColumnsWithoutTrailingBlanks) {
   EXPECT_EQ(TextTable({Align::left}).str(), "");
 }
 
+TEST(TextTable, ColoursCellsWithoutShiftingThem) {
+  TextTable table({Align::left, Align::right, Align::left});
+  table.add({"a", Cell("7", "1;34"), "x"});
+  table.add({"b", "1234", Cell("", "31")});
+  EXPECT_EQ(table.str(), "a     7  x\nb  1234\n");
+  EXPECT_EQ(table.str(true), "a     \033[1;34m7\033[0m  x\nb  1234  \033[31m\033[0m\n");
+}
+
+TEST(Wrapped, BreaksAtBlanks) {
+  EXPECT_EQ(wrapped("one two three", 13), "one two three");
+  EXPECT_EQ(wrapped("one two three", 12), "one two\nthree");
+  EXPECT_EQ(wrapped("one two three", 8, 2), "one two\n  three");
+  EXPECT_EQ(wrapped("étagère étagère", 7), "étagère\nétagère");
+  EXPECT_EQ(wrapped("a verylongword b", 5), "a\nverylongword\nb");
+  EXPECT_EQ(wrapped("key  value", 20), "key  value");
+  EXPECT_EQ(wrapped("one two\nthree\n", 4, 1), "one\n two\n three\n");
+  EXPECT_EQ(wrapped("", 4), "");
+}
+
+TEST(ProgressLine, ShowsRateAndTimeLeft) {
+  EXPECT_EQ(progress_line("describing", 30, 120, 10.0, 79),
+            "describing           [######..................] 30/120  3.0/s  30.0 s left");
+  EXPECT_EQ(progress_line("describing", 1, 3, 20.0, 100),
+            "describing           [########................] 1/3  20.0 s each  40.0 s left");
+  EXPECT_EQ(progress_line("describing", 3, 3, 0.001, 100),
+            "describing           [########################] 3/3  3000/s  0.0 ms left");
+  EXPECT_EQ(progress_line("describing", 0, 3, 5.0, 100), "describing           [........................] 0/3");
+}
+
+TEST(ProgressLine, NeverIsWiderThanTheTerminal) {
+  for (std::size_t width = 1; width < 120; ++width) {
+    for (const char* const stage : {"x", "a stage of the work with a long name é"}) {
+      EXPECT_LE(text_width(progress_line(stage, 1234, 99999, 3.0, width)), width);
+    }
+  }
+  EXPECT_EQ(progress_line("describing", 30, 120, 10.0, 48), "describing 30/120  3.0/s  30.0 s left");
+}
+
 TEST(HumanSeconds, ChoosesTheUnit) {
   EXPECT_EQ(human_seconds(0.0), "0.0 ms");
   EXPECT_EQ(human_seconds(0.0013), "1.3 ms");
@@ -108,10 +146,11 @@ TEST(EvaluationText, IsTheConfusionMatrixInPerCent) {
             "16 objects, 3 categories, mean and standard deviation over 4 splits, 12.4 s\n");
 }
 
-TEST(EvaluationText, FallsBackToListsWhereTheMatrixIsTooWide) {
-  const std::string wide = evaluation_text(three_categories(), 52);
-  const std::string narrow = evaluation_text(three_categories(), 51);
-  EXPECT_NE(wide.find("truth"), std::string::npos);  // 52 columns wide
+TEST(EvaluationText, CutsLongNamesThenFallsBackToLists) {
+  const std::string cut = evaluation_text(three_categories(), 51);  // whole it is 52 columns wide
+  EXPECT_EQ(cut.substr(0, cut.find('\n')), "truth \\ named as, %  objects  chair  ét…ère  table?");
+  EXPECT_LE(widest_line(cut.substr(0, cut.find("\nmean-class"))), 51U);
+  const std::string narrow = evaluation_text(three_categories(), 50);
   EXPECT_EQ(narrow.substr(0, narrow.find("\nmean-class")),
             "category  objects  right\n"
             "chair          10   88 %\n"
@@ -123,6 +162,36 @@ TEST(EvaluationText, FallsBackToListsWhereTheMatrixIsTooWide) {
             "chair                étagère             12 %\n");
 }
 
+TEST(EvaluationText, FitsEightyColumnsHoweverLongTheNames) {
+  Evaluation e = three_categories();
+  e.categories = {std::string(200, 'a'), std::string(90, 'b'), "table"};
+  e.protocol = Protocol::across;
+  e.test_dataset = "a folder with quite a long name/and another one below it/of objects";
+  e.test_object_counts = {1, 2, 3};
+  e.confidence = ConfidenceMeasure{0.9, 0.8, 0.7, 5};
+  for (std::size_t n = 3; n < 40; ++n) {
+    EXPECT_LE(widest_line(evaluation_text(e, 80)), 80U) << n << " categories\n" << evaluation_text(e, 80);
+    e.categories.push_back(std::string(30, 'c') + std::to_string(n));
+    e.object_counts.push_back(1000);
+    for (auto& row : e.confusion) {
+      row.push_back(1);
+    }
+    e.confusion.push_back(std::vector<std::uint32_t>(n + 1, 7));
+  }
+}
+
+TEST(EvaluationText, ColoursWhatIsRightAndWrong) {
+  const std::string plain = evaluation_text(three_categories(), 100);
+  EXPECT_EQ(plain.find('\033'), std::string::npos);
+  std::string coloured = evaluation_text(three_categories(), 100, true);
+  EXPECT_NE(coloured.find("\033[32m88\033[0m       \033[31m12\033[0m"), std::string::npos) << coloured;
+  EXPECT_NE(coloured.find("\033[1;31m50\033[0m       \033[32m50\033[0m"), std::string::npos) << coloured;
+  for (std::size_t at = coloured.find('\033'); at != std::string::npos; at = coloured.find('\033')) {
+    coloured.erase(at, coloured.find('m', at) + 1 - at);
+  }
+  EXPECT_EQ(coloured, plain);
+}
+
 TEST(EvaluationText, FallsBackWithoutAnyConfusion) {
   Evaluation e = three_categories();
   e.confusion = {{8, 0, 0}, {0, 4, 0}, {0, 0, 1}};
@@ -132,7 +201,7 @@ TEST(EvaluationText, FallsBackWithoutAnyConfusion) {
 }
 
 std::string last_lines(const Evaluation& e) {
-  const std::string text = evaluation_text(e, 100);
+  const std::string text = evaluation_text(e, 160);
   return text.substr(text.find("\n\n") + 2);
 }
 
@@ -221,6 +290,8 @@ TEST(ModelText, SaysWhatWasLearnt) {
   model.made_by = "spincat 0.1.0";
   model.dataset = "furniture";
   const std::string text = model_text(model);
+  EXPECT_LE(widest_line(model_text(model, 60)), 60U);
+  EXPECT_GT(widest_line(text), 60U);
   for (const char* part : {"spincat 0.1.0", "furniture", "bed (9), chair? (69)", "1 of 4800 features",
                            "support angle soft", "seed 1, 6 stretched copies"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;

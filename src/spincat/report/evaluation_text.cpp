@@ -24,35 +24,61 @@ std::string diagonal_share(const Evaluation& e, std::size_t c) {
   return total > 0.0 ? per_cent(e.confusion[c][c] / total) + " %" : "-";
 }
 
-// Rows are the truth, columns what objects were named; shares of each row in per cent, zeros as dots.
-std::string confusion_matrix(const Evaluation& e) {
+constexpr std::size_t kLongestName = 28;  // in lists
+
+std::string listed_name(const Evaluation& e, std::size_t c) {
+  return cut_in_the_middle(printable(e.categories[c]), kLongestName);
+}
+
+// Terminal colours of a share of right names, and of wrong ones.
+std::string_view right_style(double share) {
+  return share >= 0.9 ? "1;32" : share >= 0.5 ? "32" : "33";
+}
+std::string_view wrong_style(double share) {
+  return share >= 0.2 ? "1;31" : "31";
+}
+
+Cell matrix_cell(std::uint32_t count, double total, bool on_diagonal) {
+  if (count == 0) {
+    return {".", "2"};
+  }
+  const double share = count / total;
+  return {per_cent(share), on_diagonal ? right_style(share) : wrong_style(share)};
+}
+
+// Rows are the truth, columns what objects were named; shares of each row in per cent, zeros as dots. Names are cut to
+// `longest` columns.
+TextTable confusion_matrix(const Evaluation& e, std::size_t longest) {
   const std::size_t n = e.categories.size();
   std::vector<Align> columns = {Align::left, Align::right};
   columns.insert(columns.end(), n, Align::right);
   TextTable table(columns);
-  std::vector<std::string> head = {"truth \\ named as, %", "objects"};
+  std::vector<Cell> head = {"truth \\ named as, %", "objects"};
   for (const std::string& category : e.categories) {
-    head.push_back(printable(category));
+    head.emplace_back(cut_in_the_middle(printable(category), longest));
   }
   table.add(std::move(head));
   for (std::size_t truth = 0; truth < n; ++truth) {
     const double total = row_total(e.confusion[truth]);
-    std::vector<std::string> row = {printable(e.categories[truth]), fmt::format("{}", e.object_counts[truth])};
-    for (const std::uint32_t count : e.confusion[truth]) {
-      row.push_back(count == 0 ? "." : per_cent(count / total));
+    std::vector<Cell> row = {cut_in_the_middle(printable(e.categories[truth]), std::max<std::size_t>(longest, 18)),
+                             fmt::format("{}", e.object_counts[truth])};
+    for (std::size_t named = 0; named < n; ++named) {
+      row.push_back(matrix_cell(e.confusion[truth][named], total, named == truth));
     }
     table.add(std::move(row));
   }
-  return table.str();
+  return table;
 }
 
-std::string category_rates(const Evaluation& e) {
+std::string category_rates(const Evaluation& e, bool colours) {
   TextTable table({Align::left, Align::right, Align::right});
   table.add({"category", "objects", "right"});
   for (std::size_t c = 0; c < e.categories.size(); ++c) {
-    table.add({printable(e.categories[c]), fmt::format("{}", e.object_counts[c]), diagonal_share(e, c)});
+    const double total = row_total(e.confusion[c]);
+    table.add({listed_name(e, c), fmt::format("{}", e.object_counts[c]),
+               total > 0.0 ? Cell(diagonal_share(e, c), right_style(e.confusion[c][c] / total)) : Cell("-")});
   }
-  return table.str();
+  return table.str(colours);
 }
 
 std::string most_confused(const Evaluation& e, std::size_t most) {
@@ -77,20 +103,22 @@ std::string most_confused(const Evaluation& e, std::size_t most) {
   TextTable table({Align::left, Align::left, Align::right});
   table.add({"most often confused", "named as", "of its objects"});
   for (const Confused& pair : pairs) {
-    table.add({printable(e.categories[pair.truth]), printable(e.categories[pair.named]), per_cent(pair.share) + " %"});
+    table.add({listed_name(e, pair.truth), listed_name(e, pair.named), per_cent(pair.share) + " %"});
   }
   return table.str();
 }
 
-std::size_t widest_line(const std::string& text) {
-  std::size_t widest = 0;
-  std::size_t begin = 0;
-  while (begin < text.size()) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    widest = std::max(widest, text_width(std::string_view(text).substr(begin, end - begin)));
-    begin = end + 1;
+// The matrix with names as long as `width` allows, or what stands in its place.
+std::string matrix_or_lists(const Evaluation& e, std::size_t width, bool colours) {
+  constexpr std::size_t kWhole = 1'000;
+  for (const std::size_t longest :
+       {kWhole, std::size_t{20}, std::size_t{16}, std::size_t{12}, std::size_t{10}, std::size_t{8}, std::size_t{6}}) {
+    const TextTable matrix = confusion_matrix(e, longest);
+    if (widest_line(matrix.str()) <= width) {
+      return matrix.str(colours);
+    }
   }
-  return widest;
+  return category_rates(e, colours) + "\n" + most_confused(e, 10);
 }
 
 std::string rate_text(const Evaluation& e, const Rate& rate) {
@@ -142,20 +170,20 @@ std::string confidence_text(const Evaluation& e) {
 
 }  // namespace
 
-std::string evaluation_text(const Evaluation& e, std::size_t width) {
-  std::string matrix = confusion_matrix(e);
-  if (widest_line(matrix) > width) {
-    matrix = category_rates(e) + "\n" + most_confused(e, 10);
-  }
+std::string evaluation_text(const Evaluation& e, std::size_t width, bool colours) {
+  constexpr std::size_t kIndent = 17;
   const std::size_t objects = std::accumulate(e.object_counts.begin(), e.object_counts.end(), std::size_t{0});
+  const std::string last = fmt::format("{} objects, {} categories, {}, {}", objects, e.categories.size(),
+                                       protocol_text(e), human_seconds(e.wall_seconds));
+  const std::size_t lines = std::max<std::size_t>(width, 40);  // of prose
   return fmt::format(
       "{}\n"
       "mean-class rate  {}\n"
       "overall rate     {}\n"
       "{}{}"
-      "{} objects, {} categories, {}, {}\n",
-      matrix, rate_text(e, e.mean_class_rate), rate_text(e, e.overall_rate), seeds_text(e), confidence_text(e), objects,
-      e.categories.size(), protocol_text(e), human_seconds(e.wall_seconds));
+      "{}\n",
+      matrix_or_lists(e, width, colours), rate_text(e, e.mean_class_rate), rate_text(e, e.overall_rate),
+      wrapped(seeds_text(e), lines, kIndent), wrapped(confidence_text(e), lines, kIndent), wrapped(last, lines));
 }
 
 }  // namespace spincat

@@ -75,7 +75,8 @@ std::string object_json(const std::string& file, const ObjectFacts& facts) {
                 {{"repeated_points", facts.repeated_points},
                  {"unused_vertices", facts.unused_vertices},
                  {"flat_triangles", facts.flat_triangles},
-                 {"repeated_triangles", facts.repeated_triangles}}}});
+                 {"repeated_triangles", facts.repeated_triangles},
+                 {"flipped_triangles", facts.flipped_triangles}}}});
 }
 
 std::string spin_json(const std::string& file, std::size_t spin_points, const SpinImageParams& params,

@@ -17,8 +17,8 @@ namespace spincat {
 
 // One line each, without the line's end. Texts that are no UTF-8 get U+FFFD in place of what is wrong.
 // {"file", "category", "confidence", "votes": {category: n}, "milliseconds"}, and with `every_judge` also
-// "judges": [{"a", "b", "vote", "margin"}]. When the name is `rejected` for want of confidence, "category" is "unknown",
-// and "best_guess" has the name.
+// "judges": [{"a", "b", "vote", "margin"}]. When the name is `rejected` for want of confidence, "category" is
+// "unknown", and "best_guess" has the name.
 std::string classification_json(const std::string& file, const Classification& classification, const Model& model,
                                 bool every_judge, bool rejected = false);
 // {"file", "error"}

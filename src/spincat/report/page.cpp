@@ -36,10 +36,15 @@ Json tested_objects(const Evaluation& evaluation) {
 
 }  // namespace
 
-std::string json_in_html(const Json& json) {
+std::string json_in_html(std::string_view json) {
   std::string text;
-  for (const char c : line(json)) {  // "<" can only be inside a string, where \u003c is the same
-    text += c == '<' ? std::string("\\u003c") : std::string(1, c);
+  text.reserve(json.size());
+  for (const char c : json) {  // "<" can only be inside a string, where \u003c is the same
+    if (c == '<') {
+      text += "\\u003c";
+    } else {
+      text += c;
+    }
   }
   return text;
 }
@@ -53,9 +58,9 @@ std::string page(const Json& data, const std::vector<PagePart>& parts, const std
   for (const std::string_view each : scripts) {
     script += each;
   }
-  return filled(
-      embedded::page_html(),
-      {{"style", embedded::page_css()}, {"data", json_in_html(data)}, {"parts", elements}, {"script", script}});
+  const std::string all = json_in_html(line(data));
+  return filled(embedded::page_html(),
+                {{"style", embedded::page_css()}, {"data", all}, {"parts", elements}, {"script", script}});
 }
 
 std::string evaluation_page(const Evaluation& evaluation, const Settings& settings, const EvaluateOptions& options,

@@ -45,29 +45,45 @@ Json point_json(const Sweep& sweep, const SweepPoint& point) {
 
 }  // namespace
 
-std::string sweep_text(const Sweep& sweep) {
-  std::vector<Align> columns(sweep.variations.size() + 7, Align::right);
-  TextTable table(columns);
-  std::vector<std::string> head;
+namespace {
+
+enum class Times { by_stage, together };
+
+TextTable sweep_table(const Sweep& sweep, Times times) {
+  const std::vector<const char*> stages =
+      times == Times::by_stage ? std::vector{"read", "prepare", "spin", "encode", "judge"} : std::vector{"time"};
+  TextTable table(std::vector<Align>(sweep.variations.size() + 2 + stages.size(), Align::right));
+  std::vector<Cell> head;
   for (const Variation& variation : sweep.variations) {
-    head.push_back(printable(variation.setting));
+    head.emplace_back(printable(variation.setting));
   }
-  head.insert(head.end(), {"mean-class rate", "overall rate", "read", "prepare", "spin", "encode", "judge"});
+  head.insert(head.end(), {"mean-class rate", "overall rate"});
+  head.insert(head.end(), stages.begin(), stages.end());
   table.add(std::move(head));
   for (const SweepPoint& point : sweep.points) {
-    std::vector<std::string> row;
+    std::vector<Cell> row;
     for (const std::string& value : point.values) {
-      row.push_back(printable(value));
+      row.emplace_back(printable(value));
     }
-    row.push_back(fmt::format("{:.3f} ± {:.3f}", point.mean_class_rate.mean, point.mean_class_rate.deviation));
-    row.push_back(fmt::format("{:.3f} ± {:.3f}", point.overall_rate.mean, point.overall_rate.deviation));
+    row.emplace_back(fmt::format("{:.3f} ± {:.3f}", point.mean_class_rate.mean, point.mean_class_rate.deviation));
+    row.emplace_back(fmt::format("{:.3f} ± {:.3f}", point.overall_rate.mean, point.overall_rate.deviation));
     const StageSeconds& s = point.seconds;
-    for (const double seconds : {s.read, s.prepare, s.spin, s.encode, s.judge}) {
-      row.push_back(human_seconds(seconds));
+    const std::vector<double> seconds = times == Times::by_stage
+                                            ? std::vector{s.read, s.prepare, s.spin, s.encode, s.judge}
+                                            : std::vector{s.read + s.prepare + s.spin + s.encode + s.judge};
+    for (const double each : seconds) {
+      row.emplace_back(human_seconds(each));
     }
     table.add(std::move(row));
   }
-  return table.str();
+  return table;
+}
+
+}  // namespace
+
+std::string sweep_text(const Sweep& sweep, std::size_t width) {
+  const std::string whole = sweep_table(sweep, Times::by_stage).str();
+  return widest_line(whole) <= width ? whole : sweep_table(sweep, Times::together).str();
 }
 
 std::string sweep_json(const Sweep& sweep, const Settings& settings, const EvaluateOptions& options,

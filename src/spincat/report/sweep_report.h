@@ -1,6 +1,7 @@
 // A sweep as a table for people, and as JSON and CSV for programs.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -8,8 +9,9 @@
 
 namespace spincat {
 
-// A line for each point: the values, the rates with their spread, the time by stage.
-std::string sweep_text(const Sweep& sweep);
+// A line for each point: the values, the rates with their spread, the time by stage (where that is wider than `width`
+// columns, of all stages together).
+std::string sweep_text(const Sweep& sweep, std::size_t width);
 
 // One object in one line; keys: docs/json.md.
 std::string sweep_json(const Sweep& sweep, const Settings& settings, const EvaluateOptions& options,

@@ -22,6 +22,30 @@ std::string human_seconds(double seconds) {
                       : fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
 }
 
+std::string progress_line(std::string_view stage, std::size_t done, std::size_t total, double seconds,
+                          std::size_t width) {
+  constexpr std::size_t kStage = 20;
+  constexpr std::size_t kWidestBar = 24;
+  constexpr std::size_t kNarrowestBar = 6;
+  std::string text = fmt::format("{}/{}", done, total);
+  if (done > 0 && seconds > 0.0) {
+    const double rate = static_cast<double>(done) / seconds;
+    text += rate >= 1.0 ? fmt::format("  {:.{}f}/s", rate, rate < 100.0 ? 1 : 0)
+                        : fmt::format("  {} each", human_seconds(1.0 / rate));
+    text += fmt::format("  {} left", human_seconds(static_cast<double>(total - std::min(done, total)) / rate));
+  }
+  const std::string name = cut_in_the_middle(stage, kStage);
+  const std::string head = name + std::string(kStage - text_width(name), ' ');
+  const std::size_t taken = kStage + 1 + 2 + 1 + text_width(text);  // blanks and brackets
+  if (width < taken + kNarrowestBar) {
+    return cut_in_the_middle(name + " " + text, width);
+  }
+  const std::size_t bar = std::min(kWidestBar, width - taken);
+  const double share = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 1.0;
+  const auto filled = std::min(bar, static_cast<std::size_t>(share * static_cast<double>(bar)));
+  return fmt::format("{} [{:#<{}}{:.<{}}] {}", head, "", filled, "", bar - filled, text);
+}
+
 std::string ballot_text(const Ballot& ballot, const std::vector<std::string>& categories) {
   std::vector<Vote> votes = ballot.votes;
   // The winner's judges first, then by strength.
@@ -45,28 +69,32 @@ std::string ballot_text(const Ballot& ballot, const std::vector<std::string>& ca
   return text;
 }
 
-std::string model_text(const Model& model) {
+std::string model_text(const Model& model, std::size_t width) {
+  constexpr std::size_t kKey = 13;
   const Settings& s = model.settings;
-  TextTable table({Align::left, Align::left});
-  table.add({"made by", model.made_by});
-  table.add({"trained on", printable(model.dataset)});
+  std::string text;
+  const auto add = [&](std::string_view key, const std::string& value) {
+    const std::string fact = fmt::format("{:<{}}", key, kKey) + value;
+    text += (width > 0 ? wrapped(fact, width, kKey) : fact) + "\n";
+  };
+  add("made by", model.made_by);
+  add("trained on", printable(model.dataset));
   std::string categories;
   for (std::size_t c = 0; c < model.categories.size(); ++c) {
     categories += fmt::format("{}{} ({})", c > 0 ? ", " : "", printable(model.categories[c]), model.object_counts[c]);
   }
-  table.add({"categories", categories});
-  table.add({"judges", fmt::format("{} of {} features", model.judges.size(), model.feature_length())});
-  table.add({"preset", fmt::format("{}, seed {}, {} stretched copies of each object", s.preset, s.seed, s.copies)});
-  table.add({"surface", fmt::format("{}, {} points, {} spin points", name_of(s.prepare.surface), s.prepare.points,
-                                    s.prepare.spin_points)});
-  table.add(
-      {"spin images",
-       fmt::format("{}, width {}, bin size {} {}, support angle {}, {} binning", name_of(s.spin.convention),
-                   s.spin.image_width, s.spin.bin_size, name_of(s.bin_size_unit),
-                   s.spin.angle_test == AngleTest::soft ? std::string("soft") : fmt::format("{}", s.spin.support_angle),
-                   name_of(s.spin.binning))});
-  table.add({"encoding", s.encoding});
-  return table.str();
+  add("categories", categories);
+  add("judges", fmt::format("{} of {} features", model.judges.size(), model.feature_length()));
+  add("preset", fmt::format("{}, seed {}, {} stretched copies of each object", s.preset, s.seed, s.copies));
+  add("surface", fmt::format("{}, {} points, {} spin points", name_of(s.prepare.surface), s.prepare.points,
+                             s.prepare.spin_points));
+  const std::string angle =
+      s.spin.angle_test == AngleTest::soft ? std::string("soft") : fmt::format("{}", s.spin.support_angle);
+  add("spin images",
+      fmt::format("{}, width {}, bin size {} {}, support angle {}, {} binning", name_of(s.spin.convention),
+                  s.spin.image_width, s.spin.bin_size, name_of(s.bin_size_unit), angle, name_of(s.spin.binning)));
+  add("encoding", s.encoding);
+  return text;
 }
 
 std::string object_text(const ObjectFacts& facts) {
@@ -91,6 +119,7 @@ std::string object_text(const ObjectFacts& facts) {
   defect("unused vertices", facts.unused_vertices);
   defect("triangles without area", facts.flat_triangles);
   defect("repeated triangles", facts.repeated_triangles);
+  defect("flipped triangles", facts.flipped_triangles);
   return table.str();
 }
 

@@ -73,19 +73,60 @@ std::string printable(std::string_view text) {
   return result;
 }
 
-std::string TextTable::str() const {
+std::string wrapped(std::string_view text, std::size_t width, std::size_t indent) {
+  std::string result;
+  std::size_t column = 0;
+  bool line_begins = true;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of(" \n"), text.size());
+    const std::string_view word = text.substr(0, end);
+    const bool fits = column + (line_begins ? 0 : 1) + text_width(word) <= width;
+    if (!fits && !line_begins) {
+      result += "\n" + std::string(indent, ' ');
+      column = indent;
+    } else if (!line_begins) {
+      result += " ";
+      ++column;
+    }
+    result += word;
+    column += text_width(word);
+    line_begins = false;
+    if (end < text.size() && text[end] == '\n') {
+      result += "\n" + std::string(end + 1 < text.size() ? indent : 0, ' ');
+      column = indent;
+      line_begins = true;
+    }
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return result;
+}
+
+std::size_t widest_line(std::string_view text) {
+  std::size_t widest = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    widest = std::max(widest, text_width(text.substr(0, end)));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return widest;
+}
+
+std::string TextTable::str(bool styled) const {
   std::vector<std::size_t> widths(columns_.size(), 0);
   for (const auto& row : rows_) {
     for (std::size_t c = 0; c < row.size(); ++c) {
-      widths[c] = std::max(widths[c], text_width(row[c]));
+      widths[c] = std::max(widths[c], text_width(row[c].text));
     }
   }
   std::string text;
   for (const auto& row : rows_) {
     std::string line;
     for (std::size_t c = 0; c < row.size(); ++c) {
-      const std::string blanks(widths[c] - text_width(row[c]), ' ');
-      line += (c > 0 ? "  " : "") + (columns_[c] == Align::right ? blanks + row[c] : row[c] + blanks);
+      const std::string blanks(widths[c] - text_width(row[c].text), ' ');
+      const bool plain = !styled || row[c].style.empty();
+      const std::string shown =
+          plain ? row[c].text : "\033[" + std::string(row[c].style) + "m" + row[c].text + "\033[0m";
+      line += (c > 0 ? "  " : "") + (columns_[c] == Align::right ? blanks + shown : shown + blanks);
     }
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";

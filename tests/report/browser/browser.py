@@ -118,11 +118,20 @@ class Browser:
                 raise PageError("waited in vain for " + script)
             time.sleep(0.02)
 
+    def _middle(self, selector):
+        return self.run("(() => { const e = document.querySelector(%s); e.scrollIntoView({block: 'center'});"
+                        "const b = e.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; })()"
+                        % json.dumps(selector))
+
+    def swipe(self, selector, dx, dy):
+        """Puts a finger on the middle of an element, moves it and lifts it."""
+        x, y = self._middle(selector)
+        for kind, points in (("touchStart", [(0, 0)]), ("touchMove", [(dx / 2, dy / 2)]), ("touchMove", [(dx, dy)]), ("touchEnd", [])):
+            self.call("Input.dispatchTouchEvent", type=kind, touchPoints=[{"x": x + a, "y": y + b} for a, b in points])
+
     def drag(self, selector, dx, dy):
         """Presses the mouse in the middle of an element, moves it and lets go."""
-        box = self.run("(() => { const e = document.querySelector(%s); e.scrollIntoView({block: 'center'});"
-                       "const b = e.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; })()"
-                       % json.dumps(selector))
+        box = self._middle(selector)
         steps = [("mousePressed", 0, 0), ("mouseMoved", dx / 2, dy / 2), ("mouseMoved", dx, dy), ("mouseReleased", dx, dy)]
         for kind, x, y in steps:
             self.call("Input.dispatchMouseEvent", type=kind, x=box[0] + x, y=box[1] + y, button="left", buttons=1,

@@ -71,7 +71,7 @@ def check_widths(browser, path):
     """Nothing is wider than the window, on a phone either."""
     for width in (390, 1280):
         browser.open(path, width=width)
-        check(browser.run("document.documentElement.scrollWidth") <= width, "wider than %d pixels" % width)
+        check(browser.run("document.documentElement.scrollWidth") <= width, "%s is wider than %d pixels" % (path, width))
 
 
 def check_names(browser):

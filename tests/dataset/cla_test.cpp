@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "dataset_lines.h"
-#include "support/expect_error.h"
 #include "spincat/dataset/listing.h"
+#include "support/expect_error.h"
 #include "support/temp_dir.h"
 
 namespace spincat {

@@ -3,8 +3,8 @@
 #include <unistd.h>
 
 #include "dataset_lines.h"
-#include "support/expect_error.h"
 #include "spincat/dataset/dataset.h"
+#include "support/expect_error.h"
 #include "support/temp_dir.h"
 
 namespace spincat {

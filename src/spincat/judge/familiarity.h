@@ -11,7 +11,7 @@ namespace spincat {
 
 // The training objects themselves, and how near to each other those of a category lie. Empty where nothing is known.
 struct Familiarity {
-  FeatureMatrix objects;  // N x E, without copies: the first E of the judges' D features
+  FeatureMatrix objects;              // N x E, without copies: the first E of the judges' D features
   std::vector<std::uint32_t> labels;  // N
   std::vector<float> typical;  // of each category: the mean squared distance of its objects to their nearest neighbour
                                // in it; of all categories together where it has a single object

@@ -5,7 +5,7 @@ const objects = data.objects;
 const categories = data.model.categories;
 const folder = commonFolder(objects.map((each) => each.result.file));
 const shortName = (object) => object.result.file.slice(folder.length);
-const viewer = new Viewer('Drag to turn, wheel or pinch to come nearer', data.model.settings.up);
+const viewer = new Viewer(data.model.settings.up);
 const named = el('div', { id: 'named' });
 const evidence = el('div', { id: 'evidence' });
 const judges = el('div', { id: 'judges' });
@@ -162,6 +162,7 @@ function showObject(i) {
   place.textContent = (i + 1) + ' of ' + objects.length;
   named.replaceChildren(...nameLines(objects[i]));
   if (part) {
+    viewer.turnUpright(result.file);
     showEvidence(readPart(part));
     judges.replaceChildren(...judgesTable(result, readPart(part)));
     viewer.show();
@@ -192,7 +193,7 @@ showPage('Names of ' + countText(objects.length, 'object'),
   ...(objects.length > 1 ? [objectsCard()] : []),
   el('section', { class: 'card' },
     objects.length > 1 ? el('div', { class: 'row no-print' }, step(-1, '←'), place, step(1, '→')) : '',
-    el('div', { class: 'beside' }, el('div', {}, viewer.host, el('div', { class: 'layers no-print' }, viewer.upChoice())), el('div', { class: 'panel' }, named, evidence))),
+    el('div', { class: 'beside' }, el('div', {}, viewer.host, el('div', { class: 'layers no-print' }, ...viewer.upChoice())), el('div', { class: 'panel whole' }, named, evidence))),
   card('What every judge said', 'The margin of the judge of each pair: blue speaks for the row’s category, orange for the column’s. Most votes win.', judges),
   repeatCard(data.run, data.model.settings, [['model', data.model.file]]));
 if (objects.length > 0) showObject(0);

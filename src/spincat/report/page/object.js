@@ -3,7 +3,7 @@
 
 const result = data.result;
 const part = readPart('object-0');
-const viewer = new Viewer('Drag to turn, wheel or pinch to come nearer', 'z');
+const viewer = new Viewer('none');
 const isMesh = result.kind === 'mesh';
 const defectNames = { repeated_points: 'repeated ' + (isMesh ? 'vertices' : 'points'), unused_vertices: 'vertices that no triangle uses',
   flat_triangles: 'triangles without area', repeated_triangles: 'repeated triangles', flipped_triangles: 'flipped triangles' };
@@ -43,12 +43,13 @@ showPage(result.file,
     el('div', {}, viewer.host, el('div', { class: 'layers no-print' },
       choice('surface', el('span', {}, countText(part.surface.count, 'surface point'))), choice('normals', 'their normals'),
       choice('spin', countText(part.spin.count, 'spin point')),
-      viewer.upChoice(), ...drawnDefects.map((key) => choice(key, result.defects[key] + ' ' + defectNames[key])))),
-    el('div', { class: 'panel' }, el('h2', {}, 'What it holds'), el('div', { id: 'facts' }, keyTable(facts)),
+      ...drawnDefects.map((key) => choice(key, result.defects[key] + ' ' + defectNames[key])), ...viewer.upChoice())),
+    el('div', { class: 'panel whole' }, el('h2', {}, 'What it holds'), el('div', { id: 'facts' }, keyTable(facts)),
       el('h3', {}, 'What is wrong with it'),
       found.length ? null : el('p', { class: 'soft small' }, 'Nothing was found.'),
       el('div', { id: 'defects' }, el('table', { class: 'list keys' }, el('tbody', {}, ...defects.map(([key, count]) =>
         el('tr', { 'data-key': key }, el('td', { class: 'soft' }, defectNames[key]), el('td', { class: 'number' }, count)))))),
       isMesh ? el('p', { class: 'soft small' }, 'Flipped triangles look the other way than most of those that they share an edge with.') : null))),
   repeatCard(data.run, data.settings, [['file', result.file]]));
+viewer.turnUpright(result.file);
 viewer.show();

@@ -59,7 +59,7 @@ function lineChart(values, series, unit, range) {
       chart.append(dot);
     });
   });
-  return el('div', {}, chart, el('p', { class: 'soft small' }, ...series.flatMap(({ name, colour }) => [el('span', { class: 'key', style: { background: colour } }), name, ' \u2003'])));
+  return el('div', {}, chart, el('p', { class: 'soft small' }, ...series.flatMap(({ name, colour }) => [el('span', { class: 'legend' }, el('span', { class: 'key', style: { background: colour } }), name), ' '])));
 }
 
 function curves() {

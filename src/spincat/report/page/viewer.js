@@ -37,10 +37,15 @@ function themeColour(name) {
 // Where the camera stands before anybody turns the object: above, a little to the right of the front.
 const firstView = { x: [0.41, 0.57, 0.71], y: [0.57, 0.41, 0.71], z: [0.57, -0.71, 0.41] };
 
+// glTF says that y points up, and OBJ files mostly have it so; of the others z is the best guess.
+const usualUp = (file) => /\.(obj|gltf|glb)$/i.test(file) ? 'y' : 'z';
+
 class Viewer {
-  // `up`: the axis of the object's file that points up on the screen.
-  constructor(hint, up) {
+  // `up`: the axis of all objects' files that points up on the screen, or 'none': as usual for the file, until somebody
+  // chooses.
+  constructor(up) {
     this.up = firstView[up] ? up : 'z';
+    this.upIsKnown = Boolean(firstView[up]);
     this.host = el('div', { class: 'viewer', id: 'viewer', tabindex: '0', role: 'img', 'aria-label': 'the object in 3D; arrow keys turn it' });
     this.layers = [];
     if (!hasWebGL()) {
@@ -56,7 +61,7 @@ class Viewer {
     this.camera.add(lamp);
     this.scene.add(this.camera);
     this.renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
-    this.host.append(this.renderer.domElement, el('p', { class: 'soft small hint' }, hint));
+    this.host.append(this.renderer.domElement);
     this.setUp(this.up);
     this.host.addEventListener('keydown', (event) => this.turnByKey(event));
     document.addEventListener('theme', () => { if (this.show) this.show(); });
@@ -82,10 +87,18 @@ class Viewer {
 
   // Files do not say which axis points up: whoever looks at them does.
   upChoice() {
-    const choice = el('select', { id: 'up', onchange: () => { if (this.scene) { this.setUp(choice.value); this.draw(); } } },
+    const choice = el('select', { id: 'up', onchange: () => { this.upIsKnown = true; if (this.scene) { this.setUp(choice.value); this.draw(); } } },
       ...Object.keys(firstView).map((axis) => el('option', { value: axis }, axis)));
     choice.value = this.up;
-    return el('label', { class: 'layer' }, choice, ' points up');
+    this.choice = choice;
+    return [el('label', { class: 'layer' }, choice, ' points up'), el('span', { class: 'soft small' }, 'drag to turn, wheel or two fingers to come nearer')];
+  }
+
+  // Before another file's object is shown.
+  turnUpright(file) {
+    if (!this.scene || this.upIsKnown || usualUp(file) === this.up) return;
+    this.setUp(usualUp(file));
+    this.choice.value = this.up;
   }
 
   turnByKey(event) {

@@ -12,6 +12,8 @@ import sys
 import tempfile
 import time
 
+import scaling_page
+
 BUILD = pathlib.Path("build")
 COMMAND = str((BUILD / "release/spincat").resolve())
 IMAGE_WIDTH = 20
@@ -251,6 +253,7 @@ def divisions(options, folder):
 def report(studies, division_rows, options):
     text = ""
     curves = []
+    predicted = {}
     for name, samples, model, size, largest in studies:
         alone = {problem: s for problem, ranks, threads, s in samples if (ranks, threads) == (1, 1)}
         text += f"## {name}: measured\n\n" + table(
@@ -261,6 +264,7 @@ def report(studies, division_rows, options):
         counts = [2**k for k in range(0, 11)]
         curve = [(p, one / predict(model, size(largest), p)) for p in counts]
         curves.append((name, curve))
+        predicted[name] = [(p, max(1, math.ceil(p / HOST_CORES)), one / gain) for p, gain in curve]
         text += f"## {name} ({largest}): predicted\n\n" + table(
             ["workers", "hosts", "seconds", "times as fast as one"],
             [(p, max(1, math.ceil(p / HOST_CORES)), f"{one / gain:.2f}", f"{gain:.1f}") for p, gain in curve if p >= 8])
@@ -271,8 +275,10 @@ def report(studies, division_rows, options):
     svg(curves, BUILD / "scaling.svg")
     (BUILD / "scaling.json").write_text(json.dumps(
         {"mpi": options.mpi, "rounds": options.rounds, "load": os.getloadavg(),
-         "studies": [{"name": n, "samples": s, "model": m} for n, s, m, _, _ in studies],
+         "studies": [{"name": n, "samples": s, "model": m, "problem": largest, "predicted": predicted[n]}
+                     for n, s, m, _, largest in studies],
          "divisions": division_rows}, indent=1))
+    scaling_page.write(BUILD / "scaling.json", BUILD / "scaling.html")
     print(text)
 
 

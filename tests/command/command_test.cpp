@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "support/lasting_part.h"
 #include "support/temp_dir.h"
 
 namespace {
@@ -485,17 +486,6 @@ TEST_F(Command, EverySubcommandHasHelpWithAnExample) {
   EXPECT_EQ(run("--version").out.rfind("spincat ", 0), 0U);
 }
 
-// A page without its times and the command line, which are its run's own.
-std::string lasting_part(std::string page) {
-  for (const char* const key : {"\"milliseconds\":", "\"command\":["}) {
-    for (std::size_t at = page.find(key); at != std::string::npos; at = page.find(key, at + 1)) {
-      const std::size_t begin = at + std::strlen(key);
-      page.erase(begin, page.find_first_of("}]", begin) - begin);
-    }
-  }
-  return page;
-}
-
 TEST_F(Command, ClassifyReportIsTheSameWhateverTheThreads) {
   train();
   for (const int threads : {1, 3}) {
@@ -506,10 +496,10 @@ TEST_F(Command, ClassifyReportIsTheSameWhateverTheThreads) {
     EXPECT_EQ(result.code, 2);
     EXPECT_EQ(result.err, "spincat: missing.off: no such file\nspincat: 1 of 9 objects could not be named\n");
   }
-  const std::string one = lasting_part(contents(dir_.path() / "1.html"));
+  const std::string one = spincat::test::lasting_part(contents(dir_.path() / "1.html"));
   EXPECT_GT(one.size(), 900'000U);  // with what draws it
   EXPECT_NE(one.find("id=\"object-8\""), std::string::npos);
-  EXPECT_TRUE(one == lasting_part(contents(dir_.path() / "3.html")));
+  EXPECT_TRUE(one == spincat::test::lasting_part(contents(dir_.path() / "3.html")));
 }
 
 TEST_F(Command, EvaluateReportBringsItsPictures) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mpi/launching.h"
+#include "support/lasting_part.h"
 
 namespace spincat::test {
 namespace {
@@ -91,13 +92,15 @@ TEST_P(UnderMpi, EvaluationsAndNamesAreTheSame) {
   };
   ASSERT_EQ(alone("train boxes -o boxes.spincat" + small).code, 0);
   const std::string evaluate = "evaluate boxes --splits 3 --json" + small;
-  const std::string classify = "classify boxes.spincat boxes --json --votes";
+  const std::string classify = "classify boxes.spincat boxes --json --votes --report page.html";
   const std::string evaluation = without_times(alone(evaluate).out);
   const std::string names = without_times(alone(classify).out);
   ASSERT_NE(names, "");
+  const std::string page = lasting_part(bytes("page.html"));
   for (const int ranks : {2, 3}) {
     EXPECT_EQ(without_times(run(ranks, evaluate).out), evaluation);
     EXPECT_EQ(without_times(run(ranks, classify).out), names);
+    EXPECT_TRUE(lasting_part(bytes("page.html")) == page) << ranks << " ranks";
   }
 }
 

@@ -10,6 +10,7 @@ Chromium it says so and ends with 77, which CTest takes as skipped.
 import json
 import os
 import shutil
+import subprocess
 import sys
 
 from browser import Browser, PageError, find_chromium
@@ -63,7 +64,31 @@ def check_sweep(browser, program, data, scratch):
     return page
 
 
-CHECKS = (check_evaluation, check_sweep, check_classification, check_object)
+def check_scaling(browser, _program, _data, scratch):
+    """The page of scripts/scaling, which no command writes."""
+    samples = [[1000, 1, 1, 8.0], [1000, 1, 2, 4.2], [1000, 2, 1, 4.4], [2000, 1, 1, 32.0], [2000, 1, 2, 16.5], [2000, 2, 1, 16.0]]
+    model = {"constant": 0.1, "per_unit": 0.0, "per_work": 7.97e-6, "launch": 0.25, "per_byte": 0.0, "largest_error": 0.04}
+    predicted = [[2 ** k, max(1, 2 ** k // 16), 0.1 + 32 / 2 ** k] for k in range(11)]
+    found = {"mpi": NASTY, "rounds": 3, "load": [0.1, 0.2, 0.3], "divisions": [[NASTY, "2.00 s", "1.00 s", "2.00"]],
+             "studies": [{"name": NASTY, "samples": samples, "model": model, "problem": 2000, "predicted": predicted}]}
+    source, page = os.path.join(scratch, "scaling.json"), os.path.join(scratch, "scaling.html")
+    with open(source, "w", encoding="utf-8") as file:
+        json.dump(found, file)
+    scripts = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../scripts")
+    subprocess.run([sys.executable, "-B", os.path.join(scripts, "scaling_page.py"), source, page], check=True)
+    check_widths(browser, page)
+    check(text(browser, ".formula") == "T = 0.1 s + 0.00000797 s W / p + 0.25 s [R > 1]", "the formula differs: " + text(browser, ".formula"))
+    check(browser.run("document.querySelectorAll('svg.chart circle').length") == 3, "measured points are missing")
+    gains = browser.run("[...document.querySelectorAll('.measured tbody tr')].map((row) => row.cells[4].textContent)")
+    check(gains == ["1.00", "1.90", "1.82", "1.00", "1.94", "2.00"], "the measured gains differ")
+    gains = browser.run("[...document.querySelectorAll('.predicted tbody tr')].map((row) => row.cells[3].textContent)")
+    check(gains == ["%.1f" % (predicted[0][2] / seconds) for _, _, seconds in predicted], "the predicted gains differ")
+    check_names(browser)
+    check_theme(browser)
+    return page
+
+
+CHECKS = (check_evaluation, check_sweep, check_classification, check_object, check_scaling)
 
 
 def take_pictures(browser, pages, folder):

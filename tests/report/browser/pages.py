@@ -9,6 +9,9 @@ from browser import PageError
 
 NASTY = "<b>\"bed\" & 'x' \U0001FA91 \u05d1\u05d9\u05ea"  # quotes, angle brackets, an emoji, right-to-left letters
 SMALL = ["--points", "200", "--spin-points", "32", "--copies", "1", "--image-width", "8", "--bin-size", "0.25", "--threads", "2"]
+# How far parts of the page have been moved by others that came later (0 is not at all).
+SHIFTS = ("new Promise((done) => { let sum = 0; new PerformanceObserver((list) => { for (const shift of list.getEntries()) sum += shift.value; })"
+          ".observe({type: 'layout-shift', buffered: true}); setTimeout(() => done(sum), 100); })")
 
 
 def check(right, what):
@@ -71,6 +74,7 @@ def check_widths(browser, path):
     """Nothing is wider than the window, on a phone either."""
     for width in (390, 1280):
         browser.open(path, width=width)
+        check(browser.run(SHIFTS) < 0.02, path + ": its parts jump about while it is loaded")
         check(browser.run("document.documentElement.scrollWidth") <= width, "%s is wider than %d pixels" % (path, width))
 
 

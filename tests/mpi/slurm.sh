@@ -57,7 +57,16 @@ ReturnToService=2
 NodeName=node1 CPUs=$processors State=UNKNOWN
 PartitionName=main Nodes=ALL Default=YES MaxTime=INFINITE State=UP OverSubscribe=FORCE:8
 CONF
-inside() { ip netns exec "$space" unshare -u sh -c 'hostname node1; exec "$@"' sh "$@"; }
+# slurmd looks for cgroups although nothing here uses them, and entering a network namespace mounts a new /sys without
+# any: those of version 2 are mounted again; where they are of version 1 (or both), it does that itself.
+if [ -e /sys/fs/cgroup/cgroup.controllers ]; then
+  printf 'CgroupPlugin=cgroup/v2\n' >"$work/cgroup.conf"
+  cgroups='mount -t cgroup2 none /sys/fs/cgroup 2>/dev/null || true'
+else
+  printf 'CgroupPlugin=cgroup/v1\nCgroupAutomount=yes\n' >"$work/cgroup.conf"
+  cgroups='mount -t tmpfs none /sys/fs/cgroup 2>/dev/null || true'
+fi
+inside() { ip netns exec "$space" unshare -u sh -c "hostname node1; $cgroups; exec \"\$@\"" sh "$@"; }
 export SLURM_CONF="$work/slurm.conf"
 inside munged --force --foreground --key-file "$work/munge/key" --socket "$work/munge.socket" \
   --pid-file "$work/munge/pid" --log-file "$work/munge/log" --seed-file "$work/munge/seed" >"$work/munged.err" 2>&1 </dev/null &

@@ -72,6 +72,10 @@ std::filesystem::path beside(std::filesystem::path report, const char* ending) {
   return report.replace_extension(ending);
 }
 
+std::vector<std::filesystem::path> strangers_of(const EvaluateArguments& a) {
+  return a.unknown.empty() ? std::vector<std::filesystem::path>() : read_objects(a.unknown, a.unknown_models);
+}
+
 // Which files an evaluation works on: its arguments and what lies below them.
 std::string data_identity(const EvaluateArguments& a) {
   FilesIdentity data;
@@ -86,6 +90,9 @@ std::string data_identity(const EvaluateArguments& a) {
       }
     }
   }
+  for (const std::filesystem::path& file : strangers_of(a)) {
+    data.add(file);
+  }
   return data.text();
 }
 
@@ -96,13 +103,15 @@ int run_evaluate(const EvaluateArguments& arguments, TaskFarm& farm) {
   options.test = arguments.tested.options();
   options.strict = arguments.dataset.strict;
   FarmRun run(farm, arguments.run);
-  run.keep_journal({}, [&] { return RunIdentity{settings_identity("evaluate", settings), data_identity(arguments)}; });
+  run.keep_journal({}, [&] {
+    const auto& [form, noise, cloud_points] = options.test;
+    const std::string shown = fmt::format("{} {} {}", static_cast<int>(form), noise, cloud_points);
+    return RunIdentity{settings_identity("evaluate", settings, shown), data_identity(arguments)};
+  });
   options.threads = farm.threads();
   options.farm = &farm;
   options.division = arguments.run.division();
-  if (!arguments.unknown.empty()) {
-    options.strangers = read_objects(arguments.unknown, arguments.unknown_models);
-  }
+  options.strangers = strangers_of(arguments);
   check_report(arguments.report);
   if (!arguments.report.empty()) {
     check_writable(beside(arguments.report, ".confusion.svg"));

@@ -29,8 +29,8 @@ class MpiWatch {
   std::jthread thread_;
 };
 
-// While MPI starts: ends this process with a line that says so when a rank beside it has gone or stays stopped, or after
-// thirty deadlines for silence. Nothing is lost by then: the journal has what an earlier run finished.
+// While MPI starts: ends this process with a line that says so when a rank beside it has gone or stays stopped, or
+// after thirty deadlines for silence. Nothing is lost by then: the journal has what an earlier run finished.
 std::unique_ptr<MpiWatch> watch_start(const Launch& launch);
 
 // While MPI ends: kills ranks of this host that stay stopped, and ends this process with its exit code when a rank

@@ -8,10 +8,12 @@
 #include "command_line.h"
 #include "commands.h"
 #include "evaluate_options.h"
+#include "farm_run.h"
 #include "options.h"
 #include "progress_bar.h"
 #include "spincat/error.h"
 #include "spincat/io/file.h"
+#include "spincat/parallel/task_farm.h"
 #include "spincat/report/page.h"
 #include "spincat/report/sweep_report.h"
 #include "terminal.h"
@@ -56,12 +58,14 @@ void check_output(const std::filesystem::path& output) {
   check_writable(output);  // before the work, not after it
 }
 
-int run_sweep(const SweepArguments& arguments) {
+int run_sweep(const SweepArguments& arguments, TaskFarm& farm) {
   const Settings settings = arguments.settings.settings();
   EvaluateOptions options = arguments.options;
   options.test = arguments.tested.options();
   options.strict = arguments.dataset.strict;
-  options.threads = arguments.run.thread_count();
+  FarmRun run(farm, arguments.run);  // a sweep keeps a journal of its own
+  options.threads = farm.threads();
+  options.farm = &farm;
   std::vector<Variation> variations;
   for (const std::string& text : arguments.vary) {
     variations.push_back(parse_variation(text));
@@ -86,6 +90,7 @@ int run_sweep(const SweepArguments& arguments) {
   if (!arguments.report.empty()) {
     write_file_atomically(arguments.report, sweep_page(found, settings, options, command_line()));
   }
+  run.finish();
   fmt::print("{}", arguments.run.json ? json : sweep_text(found, terminal_width(STDOUT_FILENO, kPipeWidth)));
   return 0;
 }
@@ -114,7 +119,7 @@ Command add_sweep(CLI::App& parent) {
   arguments->tested.add_to(*command);
   arguments->settings.add_to(*command);
   arguments->run.add_to(*command);
-  return [arguments](TaskFarm&) { return run_sweep(*arguments); };
+  return [arguments](TaskFarm& farm) { return run_sweep(*arguments, farm); };
 }
 
 }  // namespace spincat::app

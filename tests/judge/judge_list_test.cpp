@@ -79,6 +79,15 @@ Judge teach(const std::vector<float>& x, const std::vector<std::uint32_t>& label
   return TrainingSet(features, gram, {}, labels, rows, 2).teach({0, 1}, settings);
 }
 
+// Of the line that the judge folds into.
+double weight(const Judge& judge, const std::vector<float>& x) {
+  double w = 0.0;
+  for (std::size_t s = 0; s < judge.rows.size(); ++s) {
+    w += judge.coefficients[s] * static_cast<double>(x[judge.rows[s]]);
+  }
+  return w;
+}
+
 TEST(TrainingSet, ClassWeightsKeepALargeCategoryFromOutvotingASmallOne) {
   // At 1 lie two objects of the small category and ten of the large one, which has ten more at -1. Counted, the large
   // category wins there; weighed, the small one does, all of it being there.
@@ -92,19 +101,19 @@ TEST(TrainingSet, ClassWeightsKeepALargeCategoryFromOutvotingASmallOne) {
     }
   }
   const Judge weighed = teach(x, labels, {KernelKind::linear, 200.0, true});
-  EXPECT_NEAR(weighed.weights[0], 1.0, kSolved);
+  EXPECT_NEAR(weight(weighed, x), 1.0, kSolved);
   EXPECT_NEAR(weighed.bias, 0.0, kSolved);
   const Judge counted = teach(x, labels, {KernelKind::linear, 200.0, false});
-  EXPECT_NEAR(counted.weights[0] + counted.bias, -1.0, kSolved);
-  EXPECT_NEAR(-counted.weights[0] + counted.bias, -1.0, kSolved);
+  EXPECT_NEAR(weight(counted, x) + counted.bias, -1.0, kSolved);
+  EXPECT_NEAR(-weight(counted, x) + counted.bias, -1.0, kSolved);
 }
 
 TEST(TrainingSet, PricesAreCTimesAllObjectsByThoseOfTheCategory) {
   // Both at one place: the multipliers reach the smaller price. Three objects, two categories: 3/2 and 3/4 of C.
   const Judge judge = teach({1, 1, 1}, {0, 1, 1}, {KernelKind::linear, 4.0, true});
-  EXPECT_EQ(judge.support_vectors, 3U);
+  EXPECT_EQ(judge.rows.size(), 3U);
   // Balanced, the two sides pull equally, at twice C 3/4: the weight is 1 * 6 - 1 * 6.
-  EXPECT_NEAR(judge.weights[0], 0.0, kSolved);
+  EXPECT_NEAR(weight(judge, {1, 1, 1}), 0.0, kSolved);
 }
 
 const std::vector<std::uint32_t> kBlocks = {2, 5, 1};
@@ -139,6 +148,31 @@ struct ThreeClouds {
     return training.list(taught);
   }
 };
+
+// Margins from the shared inner products are those of the finished list.
+TEST(TrainingSet, TellsMarginsWithoutFolding) {
+  for (const KernelKind kind : {KernelKind::linear, KernelKind::rbf}) {
+    const ThreeClouds clouds;
+    const SharedGram gram = make_shared_gram(kind, kBlocks, clouds.features, 1);
+    const TrainingSet training(clouds.features, gram, fit_kernel(kind, kBlocks, clouds.features, clouds.rows),
+                               clouds.labels, clouds.rows, 3);
+    std::vector<Judge> taught;
+    for (const CategoryPair pair : all_pairs(3)) {
+      taught.push_back(training.teach(pair, {kind, default_c(kind), true}));
+    }
+    const std::vector<std::uint32_t> rows = {44, 0, 7};
+    std::vector<std::span<const float>> objects;
+    for (const std::uint32_t row : rows) {
+      objects.emplace_back(clouds.features.row(row).data(), 8);
+    }
+    const FeatureMatrix margins = training.margins(taught, rows);
+    const FeatureMatrix expected = training.list(taught, 2).margins(objects);
+    ASSERT_EQ(margins.rows(), 3);
+    ASSERT_EQ(margins.cols(), 3);
+    EXPECT_LT((margins - expected).cwiseAbs().maxCoeff(), 1e-4F * (1.0F + expected.cwiseAbs().maxCoeff()));
+    EXPECT_EQ(training.margins(std::span(taught).subspan(1, 1), rows), margins.col(1));
+  }
+}
 
 TEST(TrainingSet, NeedsNoSharedGramMatrix) {
   const ThreeClouds clouds;
@@ -199,13 +233,13 @@ TEST(JudgeList, RbfVotesAsTheSupportVectorsDo) {
   EXPECT_LE(judges.supports.rows(), 30);  // each training object once, however many judges lean on it
   for (std::size_t l = 0; l < pairs.size(); ++l) {
     const Judge judge = training.teach(pairs[l], {KernelKind::rbf, default_c(KernelKind::rbf), true});
-    ASSERT_EQ(judge.rows.size(), judge.support_vectors);
+    ASSERT_EQ(judge.rows.size(), judges.support_vectors[l]);
     for (std::uint32_t i = 0; i < 45; ++i) {
       double margin = judge.bias;
       for (std::size_t s = 0; s < judge.rows.size(); ++s) {
         const std::vector<std::uint32_t> two = {judge.rows[s], i};
         const Eigen::MatrixXf k = kernel_matrix(kernel, clouds.features, {}, two);
-        margin += static_cast<double>(judge.coefficients[s]) * static_cast<double>(k(0, 1));
+        margin += judge.coefficients[s] * static_cast<double>(k(0, 1));
       }
       const Ballot ballot = judges.vote({clouds.features.row(i).data(), 8});
       EXPECT_NEAR(ballot.votes[l].margin, margin, 1e-4 * (1.0 + std::abs(margin)));

@@ -11,9 +11,10 @@
 #include "spincat/dataset/splits.h"
 #include "spincat/geometry/random.h"
 #include "spincat/io/read_object.h"
+#include "spincat/parallel/task_farm.h"
 #include "spincat/pipeline/evaluate.h"
 #include "spincat/pipeline/feature_table.h"
-#include "spincat/pipeline/teach.h"
+#include "spincat/pipeline/teacher.h"
 #include "spincat/prepare/as_cloud.h"
 #include "support/shapes.h"
 #include "support/temp_dir.h"
@@ -110,8 +111,8 @@ double cloud_rate(const Dataset& dataset, const Settings& settings) {
   const FeatureTable table = describe_dataset(dataset, settings, true, 2, {});
   const std::vector<std::uint32_t> labels = table.object_labels();
   const Split split = stratified_splits(labels, 1, 0.5, 1)[0];
-  const SharedGram gram = shared_gram(table, settings.judge, 2);
-  const JudgeList judges = teach_judges(table, gram, split.train, settings.judge, 2, {});
+  OwnFarm farm(2);
+  const JudgeList judges = Teacher(table, settings.judge, farm.farm(), {}).teach(split.train);
   double right = 0.0;
   for (const std::uint32_t i : split.test) {
     const Object cloud = as_cloud(read_object(dataset.objects[i].file), 2048, 0.01, derive_seed(9, i));

@@ -13,10 +13,11 @@
 #include "spincat/geometry/random.h"
 #include "spincat/io/file.h"
 #include "spincat/io/read_object.h"
+#include "spincat/parallel/task_farm.h"
 #include "spincat/pipeline/classify.h"
 #include "spincat/pipeline/evaluate.h"
 #include "spincat/pipeline/feature_table.h"
-#include "spincat/pipeline/teach.h"
+#include "spincat/pipeline/teacher.h"
 #include "spincat/pipeline/train.h"
 #include "spincat/prepare/as_cloud.h"
 #include "support/expect_error.h"
@@ -309,7 +310,7 @@ TEST(Progress, NeverFallsAndReachesTheTotalNeverTwoAtATime) {
                progress(stage, done, total);
              }
            });
-  EXPECT_EQ(stages.size(), 4U);
+  EXPECT_EQ(stages.size(), 5U);
   for (const auto& [stage, counts] : stages) {
     EXPECT_EQ(counts.first, counts.second) << stage;
   }
@@ -317,7 +318,7 @@ TEST(Progress, NeverFallsAndReachesTheTotalNeverTwoAtATime) {
 
 TEST(Progress, AnExceptionEndsTheWorkInAnyStage) {
   struct Interrupted {};
-  for (const std::string stage : {"describing objects", "teaching judges", "calibrating"}) {
+  for (const std::string stage : {"describing objects", "comparing objects", "teaching judges", "calibrating"}) {
     for (const int threads : {1, 3}) {
       const Progress progress = [&](std::string_view now, std::size_t, std::size_t) {
         if (now == stage) {
@@ -428,7 +429,8 @@ TEST(TeachJudges, TestObjectsDoNotInfluenceTheCodebook) {
     }
   }
   const auto teach = [&] {
-    return teach_judges(table, shared_gram(table, settings.judge, 1), train, settings.judge, 2, {});
+    OwnFarm farm(2);
+    return Teacher(table, settings.judge, farm.farm(), {}).teach(train);
   };
   const JudgeList before = teach();
   EXPECT_EQ(before.codebook.words.rows(), 8);

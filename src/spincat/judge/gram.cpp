@@ -1,8 +1,6 @@
 #include "spincat/judge/gram.h"
 
 #include <algorithm>
-#include <utility>
-#include <vector>
 
 namespace spincat {
 namespace {
@@ -12,7 +10,7 @@ namespace {
 constexpr Eigen::Index kTile = 64;
 constexpr Eigen::Index kDepth = 128;
 
-void fill_tile(const Eigen::Ref<const FeatureMatrix>& features, Eigen::Index i, Eigen::Index j, Eigen::MatrixXf& gram) {
+Eigen::MatrixXf tile_of(const Eigen::Ref<const FeatureMatrix>& features, Eigen::Index i, Eigen::Index j) {
   const Eigen::Index rows = std::min(kTile, features.rows() - i);
   const Eigen::Index columns = std::min(kTile, features.rows() - j);
   Eigen::MatrixXf tile = Eigen::MatrixXf::Zero(rows, columns);
@@ -23,25 +21,40 @@ void fill_tile(const Eigen::Ref<const FeatureMatrix>& features, Eigen::Index i, 
   if (i == j) {  // a product's last bit may depend on its place in the tile
     tile.triangularView<Eigen::StrictlyUpper>() = tile.transpose().eval();
   }
-  gram.block(i, j, rows, columns) = tile;
-  gram.block(j, i, columns, rows) = tile.transpose();
+  return tile;
 }
 
 }  // namespace
 
 Eigen::MatrixXf gram_matrix(const Eigen::Ref<const FeatureMatrix>& features, int threads) {
-  std::vector<std::pair<Eigen::Index, Eigen::Index>> tiles;
-  for (Eigen::Index i = 0; i < features.rows(); i += kTile) {
-    for (Eigen::Index j = 0; j <= i; j += kTile) {
-      tiles.emplace_back(i, j);
-    }
-  }
   Eigen::MatrixXf gram(features.rows(), features.rows());
+  const std::size_t strips = gram_strips(features.rows());
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
-  for (std::size_t t = 0; t < tiles.size(); ++t) {
-    fill_tile(features, tiles[t].first, tiles[t].second, gram);
+  for (std::size_t s = 0; s < strips; ++s) {
+    const std::size_t strip = strips - 1 - s;  // the longest first
+    put_gram_strip(gram_strip(features, strip), strip, gram);
   }
   return gram;
+}
+
+std::size_t gram_strips(Eigen::Index rows) {
+  return static_cast<std::size_t>((rows + kTile - 1) / kTile);
+}
+
+Eigen::MatrixXf gram_strip(const Eigen::Ref<const FeatureMatrix>& features, std::size_t strip) {
+  const Eigen::Index i = static_cast<Eigen::Index>(strip) * kTile;
+  const Eigen::Index rows = std::min(kTile, features.rows() - i);
+  Eigen::MatrixXf part(rows, i + rows);
+  for (Eigen::Index j = 0; j <= i; j += kTile) {
+    part.middleCols(j, std::min(kTile, features.rows() - j)) = tile_of(features, i, j);
+  }
+  return part;
+}
+
+void put_gram_strip(const Eigen::Ref<const Eigen::MatrixXf>& part, std::size_t strip, Eigen::MatrixXf& gram) {
+  const Eigen::Index i = static_cast<Eigen::Index>(strip) * kTile;
+  gram.block(i, 0, part.rows(), part.cols()) = part;
+  gram.block(0, i, part.cols(), part.rows()) = part.transpose();
 }
 
 }  // namespace spincat

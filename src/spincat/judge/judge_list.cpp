@@ -56,27 +56,43 @@ Judge TrainingSet::teach(CategoryPair pair, const JudgeSettings& settings) const
   const auto first_count = static_cast<std::uint32_t>(rows_of_[pair.a].size());
   const PairwiseSvm svm = train_pairwise_svm(kernel_matrix(kernel_, features_, shared_gram_, rows), first_count,
                                              price(pair.a), price(pair.b));
-  Judge judge;
-  judge.bias = static_cast<float>(svm.bias);
-  judge.support_vectors = static_cast<std::uint32_t>(svm.object.size());
-  if (kernel_.kind != KernelKind::linear) {
-    for (std::size_t s = 0; s < svm.object.size(); ++s) {
-      judge.rows.push_back(rows[svm.object[s]]);
-      judge.coefficients.push_back(static_cast<float>(svm.coefficient[s]));
-    }
-    return judge;
+  Judge judge{{}, svm.coefficient, static_cast<float>(svm.bias)};
+  for (const std::uint32_t object : svm.object) {
+    judge.rows.push_back(rows[object]);
   }
-
-  // Folding: w = sum of coefficient times support vector, after which no support vector is needed any more.
-  Eigen::RowVectorXd w = Eigen::RowVectorXd::Zero(features_.cols());
-  for (std::size_t s = 0; s < svm.object.size(); ++s) {
-    w += svm.coefficient[s] * features_.row(rows[svm.object[s]]).cast<double>();
-  }
-  judge.weights = w.cast<float>();
   return judge;
 }
 
-JudgeList TrainingSet::list(std::span<const Judge> judges) const {
+JudgeList TrainingSet::list(std::span<const Judge> judges, int threads) const {
+  JudgeList list;
+  list.categories = categories();
+  list.kernel = kernel_;
+  list.bias.resize(static_cast<Eigen::Index>(judges.size()));
+  for (std::size_t l = 0; l < judges.size(); ++l) {
+    list.bias[static_cast<Eigen::Index>(l)] = judges[l].bias;
+    list.support_vectors.push_back(static_cast<std::uint32_t>(judges[l].rows.size()));
+  }
+  if (kernel_.kind == KernelKind::linear) {
+    fold(judges, threads, list);
+  } else {
+    keep_supports(judges, list);
+  }
+  return list;
+}
+
+void TrainingSet::fold(std::span<const Judge> judges, int threads, JudgeList& list) const {
+  list.weights.resize(static_cast<Eigen::Index>(judges.size()), features_.cols());
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+  for (std::size_t l = 0; l < judges.size(); ++l) {
+    Eigen::RowVectorXd w = Eigen::RowVectorXd::Zero(features_.cols());
+    for (std::size_t s = 0; s < judges[l].rows.size(); ++s) {
+      w += judges[l].coefficients[s] * features_.row(judges[l].rows[s]).cast<double>();
+    }
+    list.weights.row(static_cast<Eigen::Index>(l)) = w.cast<float>();
+  }
+}
+
+void TrainingSet::keep_supports(std::span<const Judge> judges, JudgeList& list) const {
   // The place of each support vector among those that are kept, in the order of the table.
   std::map<std::uint32_t, Eigen::Index> place;
   for (const Judge& judge : judges) {
@@ -84,30 +100,39 @@ JudgeList TrainingSet::list(std::span<const Judge> judges) const {
       place.emplace(row, 0);
     }
   }
-  const auto count = static_cast<Eigen::Index>(judges.size());
-  JudgeList list;
-  list.categories = categories();
-  list.kernel = kernel_;
   list.supports.resize(static_cast<Eigen::Index>(place.size()), features_.cols());
   Eigen::Index next = 0;
   for (auto& [row, at] : place) {
     list.supports.row(next) = features_.row(row);
     at = next++;
   }
-  list.weights.setZero(count, kernel_.kind == KernelKind::linear ? features_.cols() : next);
-  list.bias.resize(count);
-  for (Eigen::Index l = 0; l < count; ++l) {
-    const Judge& judge = judges[static_cast<std::size_t>(l)];
-    if (kernel_.kind == KernelKind::linear) {
-      list.weights.row(l) = judge.weights;
+  list.weights.setZero(static_cast<Eigen::Index>(judges.size()), next);
+  for (std::size_t l = 0; l < judges.size(); ++l) {
+    for (std::size_t s = 0; s < judges[l].rows.size(); ++s) {
+      list.weights(static_cast<Eigen::Index>(l), place.at(judges[l].rows[s])) =
+          static_cast<float>(judges[l].coefficients[s]);
     }
-    for (std::size_t s = 0; s < judge.rows.size(); ++s) {
-      list.weights(l, place.at(judge.rows[s])) = judge.coefficients[s];
-    }
-    list.bias[l] = judge.bias;
-    list.support_vectors.push_back(judge.support_vectors);
   }
-  return list;
+}
+
+FeatureMatrix TrainingSet::margins(std::span<const Judge> judges, std::span<const std::uint32_t> rows) const {
+  std::vector<std::uint32_t> supports;
+  for (const Judge& judge : judges) {
+    supports.insert(supports.end(), judge.rows.begin(), judge.rows.end());
+  }
+  std::ranges::sort(supports);
+  supports.erase(std::ranges::unique(supports).begin(), supports.end());
+  const Eigen::MatrixXf alike = kernel_between(kernel_, shared_gram_, rows, supports);
+  FeatureMatrix margins(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(judges.size()));
+  for (std::size_t l = 0; l < judges.size(); ++l) {
+    Eigen::VectorXd sum = Eigen::VectorXd::Constant(margins.rows(), static_cast<double>(judges[l].bias));
+    for (std::size_t s = 0; s < judges[l].rows.size(); ++s) {
+      const auto at = std::ranges::lower_bound(supports, judges[l].rows[s]) - supports.begin();
+      sum += judges[l].coefficients[s] * alike.col(at).cast<double>();
+    }
+    margins.col(static_cast<Eigen::Index>(l)) = sum.cast<float>();
+  }
+  return margins;
 }
 
 std::size_t JudgeList::feature_length() const {
@@ -118,19 +143,34 @@ std::size_t JudgeList::seen_length() const {
   return static_cast<std::size_t>(kernel.kind == KernelKind::linear ? weights.cols() : supports.cols());
 }
 
-Ballot JudgeList::vote(std::span<const float> features) const {
-  const std::vector<float> counted = codebook.empty() ? std::vector<float>() : codebook.count(features);
-  const std::span<const float> seen = codebook.empty() ? features : std::span(counted);
+FeatureMatrix JudgeList::margins(std::span<const std::span<const float>> objects) const {
   const bool linear = kernel.kind == KernelKind::linear;
-  const Eigen::VectorXf alike = linear ? Eigen::VectorXf() : kernel.row(supports, seen);
-  const std::span<const float> given = linear ? seen : std::span(alike.data(), static_cast<std::size_t>(alike.size()));
-  const Eigen::Map<const Eigen::VectorXf> x(given.data(), static_cast<Eigen::Index>(given.size()));
-  std::vector<float> margins(size());
-  for (std::size_t l = 0; l < margins.size(); ++l) {
-    const auto row = static_cast<Eigen::Index>(l);
-    margins[l] = weights.row(row).dot(x) + bias[row];
+  std::vector<Eigen::VectorXf> seen;  // of each object, what the weights are for
+  for (const std::span<const float> object : objects) {
+    const std::vector<float> counted = codebook.empty() ? std::vector<float>() : codebook.count(object);
+    const std::span<const float> features = codebook.empty() ? object : std::span(counted);
+    if (linear) {
+      seen.emplace_back(Eigen::Map<const Eigen::VectorXf>(features.data(), static_cast<Eigen::Index>(features.size())));
+    } else {
+      seen.push_back(kernel.row(supports, features));
+    }
   }
-  return count_votes(categories, margins);
+  FeatureMatrix margins(static_cast<Eigen::Index>(objects.size()), static_cast<Eigen::Index>(size()));
+  constexpr Eigen::Index kJudgesAtOnce = 8;  // stay in the cache for all objects
+  for (Eigen::Index first = 0; first < margins.cols(); first += kJudgesAtOnce) {
+    const Eigen::Index last = std::min(first + kJudgesAtOnce, margins.cols());
+    for (Eigen::Index i = 0; i < margins.rows(); ++i) {
+      for (Eigen::Index l = first; l < last; ++l) {
+        margins(i, l) = weights.row(l).dot(seen[static_cast<std::size_t>(i)]) + bias[l];
+      }
+    }
+  }
+  return margins;
+}
+
+Ballot JudgeList::vote(std::span<const float> features) const {
+  const FeatureMatrix all = margins({&features, 1});
+  return count_votes(categories, {all.data(), size()});
 }
 
 }  // namespace spincat

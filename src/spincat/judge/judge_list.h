@@ -24,14 +24,12 @@ struct CategoryPair {
 // All L = n (n - 1) / 2 pairs in the order of the judges: (0,1), (0,2), ..., (1,2), ...
 std::vector<CategoryPair> all_pairs(std::uint32_t categories);
 
-// An SVM that tells two categories apart: a margin above 0 speaks for the first.
+// An SVM that tells two categories apart: margin(x) = sum over s of coefficients[s] K(row rows[s], x) + bias; above 0
+// it speaks for the first.
 struct Judge {
-  Eigen::RowVectorXf weights;  // D, linear kernel: margin = weights . x + bias
+  std::vector<std::uint32_t> rows;  // support vectors: the training objects it leans on
+  std::vector<double> coefficients;
   float bias = 0.0F;
-  std::uint32_t support_vectors = 0;  // how many training objects it leans on
-  // Other kernels: margin = sum of coefficients[s] K(row rows[s], x) + bias. Empty for the linear one.
-  std::vector<std::uint32_t> rows;
-  std::vector<float> coefficients;
 };
 
 struct JudgeList;
@@ -51,10 +49,19 @@ class TrainingSet {
   // Deterministic. Precondition: both categories have a row.
   Judge teach(CategoryPair pair, const JudgeSettings& settings) const;
 
-  // All judges in the order of all_pairs, put together. Support vectors that several judges share are kept once.
-  JudgeList list(std::span<const Judge> judges) const;
+  // All judges in the order of all_pairs, put together. Linear ones are folded: w = sum of coefficient times support
+  // vector, after which no support vector is needed any more. With another kernel, support vectors that several judges
+  // share are kept once. The result does not depend on `threads`.
+  JudgeList list(std::span<const Judge> judges, int threads = 1) const;
+
+  // What judges say of some rows, from the inner products that they share: a row for each, a column for each judge. As
+  // the list's margins up to rounding, and sooner. Deterministic. Precondition: there are shared inner products.
+  FeatureMatrix margins(std::span<const Judge> judges, std::span<const std::uint32_t> rows) const;
 
  private:
+  void fold(std::span<const Judge> judges, int threads, JudgeList& list) const;
+  void keep_supports(std::span<const Judge> judges, JudgeList& list) const;
+
   const FeatureMatrix& features_;
   const SharedGram& shared_gram_;
   Kernel kernel_;
@@ -84,7 +91,11 @@ struct JudgeList {
   // How many features an object needs: D, or local features for the codebook.
   std::size_t feature_length() const;
 
-  // Every judge's word on one feature vector (feature_length() numbers). Deterministic.
+  // Every judge's margin for feature vectors of feature_length() numbers each: a row for each of them. Deterministic,
+  // and the same for one vector and for many; many at a time are faster, for the judges are long.
+  FeatureMatrix margins(std::span<const std::span<const float>> objects) const;
+
+  // Every judge's word on one feature vector. Deterministic.
   Ballot vote(std::span<const float> features) const;
 };
 

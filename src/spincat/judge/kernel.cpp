@@ -1,7 +1,6 @@
 #include "spincat/judge/kernel.h"
 
 #include <cstddef>
-#include <utility>
 
 namespace spincat {
 namespace {
@@ -76,14 +75,19 @@ Kernel fit_kernel(KernelKind kind, std::span<const std::uint32_t> block_sizes, c
   return kernel;
 }
 
+std::vector<std::pair<Eigen::Index, Eigen::Index>> gram_columns(KernelKind kind,
+                                                                std::span<const std::uint32_t> block_sizes,
+                                                                Eigen::Index columns) {
+  if (kind == KernelKind::linear) {
+    return {{0, columns}};
+  }
+  return columns_of(block_sizes);
+}
+
 SharedGram make_shared_gram(KernelKind kind, std::span<const std::uint32_t> block_sizes, const FeatureMatrix& features,
                             int threads) {
   SharedGram gram;
-  if (kind == KernelKind::linear) {
-    gram.blocks.push_back(gram_matrix(features, threads));
-    return gram;
-  }
-  for (const auto& [first, count] : columns_of(block_sizes)) {
+  for (const auto& [first, count] : gram_columns(kind, block_sizes, features.cols())) {
     gram.blocks.push_back(gram_matrix(features.middleCols(first, count), threads));
   }
   return gram;
@@ -107,6 +111,21 @@ Eigen::MatrixXf kernel_matrix(const Kernel& kernel, const FeatureMatrix& feature
     sum += similarity(squared.rowwise() + length.transpose(), kernel.scale[b]);
   }
   return sum / static_cast<float>(columns.size());
+}
+
+Eigen::MatrixXf kernel_between(const Kernel& kernel, const SharedGram& gram, std::span<const std::uint32_t> a,
+                               std::span<const std::uint32_t> b) {
+  if (kernel.kind == KernelKind::linear) {
+    return gram.blocks[0](a, b);
+  }
+  Eigen::MatrixXf sum = Eigen::MatrixXf::Zero(static_cast<Eigen::Index>(a.size()), static_cast<Eigen::Index>(b.size()));
+  for (std::size_t block = 0; block < gram.blocks.size(); ++block) {
+    const Eigen::VectorXf length = gram.blocks[block].diagonal();
+    const Eigen::MatrixXf squared =
+        (-2.0F * Eigen::MatrixXf(gram.blocks[block](a, b))).colwise() + Eigen::VectorXf(length(a));
+    sum += similarity(squared.rowwise() + Eigen::RowVectorXf(length(b)), kernel.scale[block]);
+  }
+  return sum / static_cast<float>(gram.blocks.size());
 }
 
 }  // namespace spincat

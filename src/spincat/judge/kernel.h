@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "spincat/judge/gram.h"
@@ -40,6 +41,10 @@ struct SharedGram {
   std::vector<Eigen::MatrixXf> blocks;
   bool empty() const { return blocks.empty(); }
 };
+// The columns of the features that each of its matrices is made of: first and count.
+std::vector<std::pair<Eigen::Index, Eigen::Index>> gram_columns(KernelKind kind,
+                                                                std::span<const std::uint32_t> block_sizes,
+                                                                Eigen::Index columns);
 SharedGram make_shared_gram(KernelKind kind, std::span<const std::uint32_t> block_sizes, const FeatureMatrix& features,
                             int threads);
 
@@ -47,5 +52,9 @@ SharedGram make_shared_gram(KernelKind kind, std::span<const std::uint32_t> bloc
 // Deterministic.
 Eigen::MatrixXf kernel_matrix(const Kernel& kernel, const FeatureMatrix& features, const SharedGram& gram,
                               std::span<const std::uint32_t> rows);
+
+// K of each of the rows `a` (a row of the result) with each of the rows `b`. Precondition: `gram` is not empty.
+Eigen::MatrixXf kernel_between(const Kernel& kernel, const SharedGram& gram, std::span<const std::uint32_t> a,
+                               std::span<const std::uint32_t> b);
 
 }  // namespace spincat

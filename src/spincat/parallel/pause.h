@@ -6,8 +6,9 @@
 
 namespace spincat {
 
-// Not at all while something happens or large messages are on their way, then longer and longer, up to a millisecond:
-// a rank that only waits uses two or three percent of a core.
+// Not at all while something happens, a moment while large messages are on their way (MPI moves them on only while it
+// is called, some megabytes at a time), then longer and longer, up to a millisecond: a rank that only waits uses two or
+// three percent of a core.
 class Pause {
  public:
   using Clock = std::chrono::steady_clock;
@@ -19,9 +20,11 @@ class Pause {
       last_ = now;
       pause_ = kShortest;
     }
-    // MPI moves large messages on only while it is called. But one to a lost rank never ends.
-    if (happened || (under_way && now - last_ < kTransferPatience)) {
+    if (happened) {
       return std::chrono::microseconds(0);
+    }
+    if (under_way && now - last_ < kTransferPatience) {  // a message to a lost rank never ends
+      return kTransfer;
     }
     const auto pause = pause_;
     pause_ = std::min(2 * pause_, kLongest);
@@ -30,6 +33,7 @@ class Pause {
 
  private:
   static constexpr std::chrono::microseconds kShortest{20};
+  static constexpr std::chrono::microseconds kTransfer{50};
   static constexpr std::chrono::microseconds kLongest{1000};
   static constexpr std::chrono::milliseconds kTransferPatience{20};
   std::chrono::microseconds pause_ = kShortest;

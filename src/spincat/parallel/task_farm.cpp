@@ -41,7 +41,10 @@ class TaskFarm::Run {
  public:
   Run(TaskFarm& farm, const Job& job, const Tick& tick)
       : farm_(farm), job_(job), tick_(tick), number_(++farm.job_), board_(job.tasks, window()) {
-    journal_job_ = job_key(farm_.journaled_jobs_++, job.kind, job.tasks);
+    if (job.in_journal && farm_.journal_ != nullptr) {
+      journal_ = farm_.journal_;
+      journal_job_ = job_key(farm_.journaled_jobs_++, job.kind, job.tasks);
+    }
   }
 
   // Whatever ends the job, nobody goes on with it.
@@ -87,8 +90,8 @@ class TaskFarm::Run {
   // What the journal has is done; the others are told about the job unless nothing is left for them.
   void begin() {
     std::size_t known = 0;
-    for (std::size_t task = 0; farm_.journal_ != nullptr && task < job_.tasks; ++task) {
-      if (farm_.journal_->has(journal_job_, task)) {
+    for (std::size_t task = 0; journal_ != nullptr && task < job_.tasks; ++task) {
+      if (journal_->has(journal_job_, task)) {
         board_.finish(task, kHere);
         ++known;
       }
@@ -175,8 +178,8 @@ class TaskFarm::Run {
       return;
     }
     median_.add(result.seconds);
-    if (farm_.journal_ != nullptr && result.outcome == TaskResult::Outcome::done) {
-      farm_.journal_->add(journal_job_, result.task, result.bytes);
+    if (journal_ != nullptr && result.outcome == TaskResult::Outcome::done) {
+      journal_->add(journal_job_, result.task, result.bytes);
     }
     waiting_.emplace(result.task, std::move(result));
   }
@@ -187,7 +190,7 @@ class TaskFarm::Run {
       const std::size_t task = board_.delivered();
       const auto found = waiting_.find(task);
       if (found == waiting_.end()) {
-        job_.deliver(task, farm_.journal_->find(journal_job_, task).value_or(""));
+        job_.deliver(task, journal_->find(journal_job_, task).value_or(""));
       } else {
         TaskResult result = std::move(found->second);
         waiting_.erase(found);
@@ -283,6 +286,7 @@ class TaskFarm::Run {
   const Job& job_;
   const Tick& tick_;
   const std::uint32_t number_;
+  Journal* journal_ = nullptr;  // null where this job is not in one
   std::uint64_t journal_job_ = 0;
   bool started_ = false;  // the others were told
   TaskBoard board_;

@@ -23,7 +23,8 @@ struct Job {
   std::size_t tasks = 0;
   std::function<std::string(std::size_t task)> task;  // what is to be done, as bytes
   std::function<void(std::size_t task, std::string result)>
-      deliver;  // on the calling thread, in the order of the tasks
+      deliver;             // on the calling thread, in the order of the tasks
+  bool in_journal = true;  // false where results are large, or soon computed again
 };
 
 // Rank 0's side of the farm; the other ranks serve (task_server.h). A rank that says nothing for longer than the

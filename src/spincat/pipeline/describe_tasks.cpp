@@ -36,27 +36,6 @@ Described described_file(const std::filesystem::path& file, int views, const Des
   return result;
 }
 
-std::string pack(const Described& described) {
-  Packer packer;
-  packer.add(std::string_view(described.problem));
-  pack_seconds(packer, described.seconds);
-  for (const FeatureVector& features : described.features) {
-    pack_features(packer, features);
-  }
-  return packer.take();
-}
-
-Described unpack_described(std::string_view bytes) {
-  Unpacker fields(bytes);
-  Described described;
-  described.problem = fields.get_text();
-  described.seconds = unpack_seconds(fields);
-  while (!fields.empty()) {
-    described.features.push_back(unpack_features(fields));
-  }
-  return described;
-}
-
 Work describe_work(const Settings& settings, int views) {
   return [settings, views](std::string_view file) {
     return pack(described_file(file, views, [&](const Object& object, int copy, StageSeconds& seconds) {
@@ -85,6 +64,27 @@ void describe_by_points(TaskFarm& farm, const DescribeJob& job,
 }
 
 }  // namespace
+
+std::string pack(const Described& described) {
+  Packer packer;
+  packer.add(std::string_view(described.problem));
+  pack_seconds(packer, described.seconds);
+  for (const FeatureVector& features : described.features) {
+    pack_features(packer, features);
+  }
+  return packer.take();
+}
+
+Described unpack_described(std::string_view bytes) {
+  Unpacker fields(bytes);
+  Described described;
+  described.problem = fields.get_text();
+  described.seconds = unpack_seconds(fields);
+  while (!fields.empty()) {
+    described.features.push_back(unpack_features(fields));
+  }
+  return described;
+}
 
 bool shares_out_points(const Settings& settings, Division division) {
   const bool dense = settings.prepare.spin_points >= kDenseSpinPoints && make_encoding(settings.encoding)->pools();

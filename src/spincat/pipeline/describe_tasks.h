@@ -24,6 +24,10 @@ struct Described {
   StageSeconds seconds;
 };
 
+// As a task's result.
+std::string pack(const Described& described);
+Described unpack_described(std::string_view bytes);
+
 // Which files, and how.
 struct DescribeJob {
   std::size_t files = 0;

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <mutex>
 #include <numeric>
 #include <utility>
 
 #include "spincat/dataset/splits.h"
-#include "spincat/parallel/for_each.h"
+#include "spincat/parallel/task_farm.h"
 #include "spincat/pipeline/roc.h"
 #include "spincat/pipeline/stopwatch.h"
-#include "spincat/pipeline/teach.h"
+#include "spincat/pipeline/task_kinds.h"
+#include "spincat/pipeline/teacher.h"
 #include "spincat/pipeline/trial.h"
 
 namespace spincat {
@@ -68,16 +68,28 @@ std::vector<Split> splits_of(const EvaluationData& data, const Settings& setting
 
 std::vector<Trial> run_trials(const EvaluationData& data, const std::vector<Split>& splits, const Settings& settings,
                               const EvaluateOptions& options, const Progress& progress) {
+  constexpr std::size_t kCalibrationLessons = 5;
   const bool confidence = options.measure_confidence || !options.strangers.empty();
-  const SharedGram gram = shared_gram(data.table, settings.judge, options.threads);
-  std::vector<Trial> trials(splits.size());
-  const int threads_each = splits.size() == 1 ? options.threads : 1;
-  std::mutex mutex;
-  std::size_t done = 0;
-  for_each_index(splits.size(), options.threads, [&](std::size_t i) {
-    trials[i] = run_trial(data, gram, splits[i], settings, confidence, threads_each);
-    const std::lock_guard lock(mutex);
-    ++done;
+  OwnFarm own(options.threads);
+  TaskFarm& farm = options.farm != nullptr ? *options.farm : own.farm();
+  const TeachingPlan plan{splits.size() * (confidence ? 1 + kCalibrationLessons : 1)};
+  Teacher teacher(data.table, settings.judge, farm, plan, progress);
+  std::vector<Trial> trials;
+  if (splits.size() == 1) {  // shared out by its judges
+    trials.push_back(run_trial(data, teacher, splits[0], settings, confidence));
+    return trials;
+  }
+  Job job;
+  job.kind = kTrialTasks;
+  job.in_journal = false;  // it would have to know which splits
+  job.context = [&] { return pack_trials(data, settings, confidence); };
+  job.work = trial_work(data, teacher.gram(), settings, confidence);
+  job.tasks = splits.size();
+  job.task = [&](std::size_t i) { return pack(splits[i]); };
+  job.deliver = [&](std::size_t, const std::string& result) {
+    trials.push_back(unpack_trial(result, data.table.categories.size()));
+  };
+  teacher.farm().run(job, [&](std::size_t done) {
     if (progress) {
       progress("judging splits", done, splits.size());
     }

@@ -22,8 +22,10 @@ void check_all_described(const TestTable& tested) {
 
 TestTable described(std::span<const DatasetObject> objects, const EvaluationData& data, const Settings& settings,
                     const TestOptions& test, const EvaluateOptions& options, const Progress& progress) {
+  OwnFarm own(options.threads);
+  TaskFarm& farm = options.farm != nullptr ? *options.farm : own.farm();
   TestTable tested = describe_tested(objects, static_cast<std::size_t>(data.table.features.cols()), settings, test,
-                                     options.threads, progress);
+                                     farm, progress);
   if (options.strict) {
     check_all_described(tested);
   }

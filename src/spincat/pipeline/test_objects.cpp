@@ -5,15 +5,20 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
-#include <mutex>
+#include <filesystem>
+#include <nlohmann/json.hpp>
 #include <utility>
 #include <variant>
 
 #include "spincat/error.h"
 #include "spincat/geometry/random.h"
 #include "spincat/io/read_object.h"
-#include "spincat/parallel/for_each.h"
+#include "spincat/parallel/packing.h"
+#include "spincat/parallel/task_farm.h"
+#include "spincat/pipeline/describe_tasks.h"
+#include "spincat/pipeline/settings_json.h"
 #include "spincat/pipeline/stopwatch.h"
+#include "spincat/pipeline/task_kinds.h"
 #include "spincat/prepare/surface_samples.h"
 
 namespace spincat {
@@ -106,34 +111,78 @@ std::span<const float> TestTable::features_of(std::uint32_t object) const {
   return {features.row(object).data(), static_cast<std::size_t>(features.cols())};
 }
 
+namespace {
+
+// One object, in the form it is tested in.
+struct TestedTask {
+  std::uint64_t seed;
+  std::string_view file;
+};
+
+Described describe_task(const TestedTask& task, const Settings& settings, const TestOptions& options) {
+  Described described;
+  try {
+    Stopwatch watch;
+    const Object object = in_test_form(read_object(std::filesystem::path(task.file)), options, task.seed);
+    described.seconds.read = watch.lap();
+    described.features.push_back(describe(object, settings, 0, &described.seconds));
+  } catch (const InputError& error) {
+    described.problem = error.problem();
+  }
+  return described;
+}
+
+Work tested_work(const Settings& settings, const TestOptions& options) {
+  return [settings, options](std::string_view bytes) {
+    Unpacker fields(bytes);
+    const auto seed = fields.get<std::uint64_t>();
+    return pack(describe_task({seed, fields.rest()}, settings, options));
+  };
+}
+
+}  // namespace
+
+Work make_tested_work(std::string_view context) {
+  Unpacker fields(context);
+  const Settings settings = settings_from_json(nlohmann::json::parse(fields.get_text()));
+  TestOptions options;
+  options.form = fields.get<TestForm>();
+  options.noise = fields.get<double>();
+  options.cloud_points = fields.get<int>();
+  return tested_work(settings, options);
+}
+
 TestTable describe_tested(std::span<const DatasetObject> objects, std::size_t feature_length, const Settings& settings,
-                          const TestOptions& options, int threads, const Progress& progress) {
+                          const TestOptions& options, TaskFarm& farm, const Progress& progress) {
   TestTable table;
   table.objects.assign(objects.begin(), objects.end());
   table.features.setZero(static_cast<Eigen::Index>(objects.size()), static_cast<Eigen::Index>(feature_length));
   table.problems.resize(objects.size());
   const std::uint64_t stream = derive_seed(settings.seed, kTestFormPurpose);
-  std::mutex mutex;
-  std::size_t done = 0;
-  for_each_index(objects.size(), threads, [&](std::size_t i) {
-    StageSeconds seconds;
-    try {
-      Stopwatch watch;
-      const Object object = in_test_form(read_object(objects[i].file), options, derive_seed(stream, i));
-      seconds.read = watch.lap();
-      const FeatureVector found = describe(object, settings, 0, &seconds);
-      if (found.values.size() == feature_length) {
-        std::ranges::copy(found.values, table.features.row(static_cast<Eigen::Index>(i)).data());
-      } else {
-        table.problems[i] =
-            fmt::format("gives {} features where the judges expect {}", found.values.size(), feature_length);
-      }
-    } catch (const InputError& error) {
-      table.problems[i] = error.problem();
+  Job job;
+  job.kind = kTestedTasks;
+  job.context = [&] {
+    const auto& [form, noise, cloud_points] = options;
+    return Packer().add(settings_to_json(settings).dump()).add(form).add(noise).add(cloud_points).take();
+  };
+  job.work = tested_work(settings, options);
+  job.tasks = objects.size();
+  job.task = [&](std::size_t i) { return Packer().add(derive_seed(stream, i)).take() + objects[i].file.string(); };
+  job.deliver = [&](std::size_t i, const std::string& result) {
+    const Described described = unpack_described(result);
+    table.seconds += described.seconds;
+    table.problems[i] = described.problem;
+    if (described.features.empty()) {
+      return;
     }
-    const std::lock_guard lock(mutex);
-    table.seconds += seconds;
-    ++done;
+    const std::vector<float>& found = described.features[0].values;
+    if (found.size() == feature_length) {
+      std::ranges::copy(found, table.features.row(static_cast<Eigen::Index>(i)).data());
+    } else {
+      table.problems[i] = fmt::format("gives {} features where the judges expect {}", found.size(), feature_length);
+    }
+  };
+  farm.run(job, [&](std::size_t done) {
     if (progress) {
       progress("describing test objects", done, objects.size());
     }

@@ -4,16 +4,20 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "spincat/dataset/dataset.h"
 #include "spincat/geometry/object.h"
 #include "spincat/judge/gram.h"
+#include "spincat/parallel/task.h"
 #include "spincat/pipeline/describe.h"
 #include "spincat/pipeline/progress.h"
 #include "spincat/pipeline/settings.h"
 
 namespace spincat {
+
+class TaskFarm;
 
 // How objects are shown to the judges.
 enum class TestForm {
@@ -24,8 +28,8 @@ enum class TestForm {
 
 struct TestOptions {
   TestForm form = TestForm::as_is;
-  double noise = 0.01;  // of clouds: standard deviation along each axis, in diameters of the object, 0 to 1; the
-                        // diameter is twice the distance of the furthest point from the centre of the bounding box
+  double noise = 0.01;      // of clouds: standard deviation along each axis, in diameters of the object, 0 to 1; the
+                            // diameter is twice the distance of the furthest point from the centre of the bounding box
   int cloud_points = 2048;  // of clouds, 1 to 10,000,000
 
   // Throws InputError naming the option, its value and the allowed range.
@@ -47,8 +51,11 @@ struct TestTable {
 
 // Reads and describes objects, without copies; those that cannot be read or do not give `feature_length` numbers get
 // their reason instead. Each object is altered by a seed of its own, made from settings.seed and its place. The result
-// does not depend on `threads`.
+// does not depend on the number of threads and ranks of the farm.
 TestTable describe_tested(std::span<const DatasetObject> objects, std::size_t feature_length, const Settings& settings,
-                          const TestOptions& options, int threads, const Progress& progress);
+                          const TestOptions& options, TaskFarm& farm, const Progress& progress);
+
+// Its work, for other ranks.
+Work make_tested_work(std::string_view context);
 
 }  // namespace spincat

@@ -5,7 +5,7 @@
 #include "spincat/parallel/task_farm.h"
 #include "spincat/pipeline/feature_table.h"
 #include "spincat/pipeline/stopwatch.h"
-#include "spincat/pipeline/teach.h"
+#include "spincat/pipeline/teacher.h"
 
 namespace spincat {
 
@@ -20,12 +20,13 @@ TrainResult train(const Dataset& dataset, const Settings& settings, const TrainO
 
   // Teach a judge for every pair of categories, and find out how far their votes can be trusted.
   Stopwatch watch;
-  const SharedGram gram = shared_gram(table, settings.judge, options.threads);
+  constexpr std::size_t kLessons = 6;  // for the model, and for the folds of its calibration
+  Teacher teacher(table, settings.judge, farm, {kLessons}, progress);
   TrainResult result;
   Model& model = result.model;
-  model.judges = teach_judges(table, gram, objects, settings.judge, options.threads, progress);
+  model.judges = teacher.teach(objects, progress);
   model.familiarity = familiarity_of(table, objects);
-  model.calibration = calibrate(table, gram, objects, settings.judge, settings.seed, options.threads, progress);
+  model.calibration = teacher.calibrate(objects, settings.seed, progress);
 
   // Keep what classifying needs to repeat all of this.
   model.settings = settings;

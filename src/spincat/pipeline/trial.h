@@ -2,11 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "spincat/dataset/splits.h"
 #include "spincat/judge/kernel.h"
+#include "spincat/parallel/task.h"
 #include "spincat/pipeline/evaluate.h"
+#include "spincat/pipeline/teach_tasks.h"
+#include "spincat/pipeline/teacher.h"
 
 namespace spincat {
 
@@ -21,8 +26,16 @@ struct Trial {
 };
 
 // Teaches the judges on the objects `split.train` of the table and lets them vote on the tested objects `split.test`.
-// Deterministic.
-Trial run_trial(const EvaluationData& data, const SharedGram& gram, const Split& split, const Settings& settings,
-                bool measure_confidence, int threads);
+// `teacher` teaches on data.table. Deterministic.
+Trial run_trial(const EvaluationData& data, Teacher& teacher, const Split& split, const Settings& settings,
+                bool measure_confidence);
+
+// Trials as tasks: a split is one. They need what a teacher has given to all ranks (teach_tasks.h), and of the data
+// what is only tested.
+std::string pack(const Split& split);
+Trial unpack_trial(std::string_view result, std::size_t categories);
+std::string pack_trials(const EvaluationData& data, const Settings& settings, bool measure_confidence);
+Work trial_work(const EvaluationData& data, const SharedGram& gram, const Settings& settings, bool measure_confidence);
+Work make_trial_work(std::string_view context, KeptData& kept);
 
 }  // namespace spincat

@@ -1,0 +1,264 @@
+#include "spincat/pipeline/teach_tasks.h"
+
+#include <algorithm>
+#include <mutex>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "spincat/error.h"
+#include "spincat/pipeline/lesson.h"
+
+namespace spincat {
+namespace {
+
+template <class Matrix>
+void pack_matrix(Packer& packer, const Matrix& matrix) {
+  packer.add(static_cast<std::uint64_t>(matrix.rows())).add(static_cast<std::uint64_t>(matrix.cols()));
+  packer.add(std::span<const float>(matrix.data(), static_cast<std::size_t>(matrix.size())));
+}
+
+template <class Matrix>
+Matrix unpack_matrix(Unpacker& fields) {
+  const auto rows = static_cast<Eigen::Index>(fields.get<std::uint64_t>());
+  const auto columns = static_cast<Eigen::Index>(fields.get<std::uint64_t>());
+  const std::string_view bytes = fields.get_text();
+  Matrix matrix(rows, columns);
+  if (bytes.size() != static_cast<std::size_t>(matrix.size()) * sizeof(float)) {
+    throw RunError("a message between ranks holds a matrix of another size");
+  }
+  std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(matrix.data()));
+  return matrix;
+}
+
+void pack_judge(Packer& packer, const Judge& judge) {
+  const auto& [rows, coefficients, bias] = judge;
+  packer.add(std::span<const std::uint32_t>(rows)).add(std::span<const double>(coefficients)).add(bias);
+}
+
+Judge unpack_judge(Unpacker& fields) {
+  Judge judge;
+  judge.rows = fields.get_values<std::uint32_t>();
+  judge.coefficients = fields.get_values<double>();
+  judge.bias = fields.get<float>();
+  return judge;
+}
+
+// Lessons that are made when they are first needed.
+class Lessons {
+ public:
+  Lessons(const FeatureTable& table, const SharedGram& gram, const JudgeSettings& settings,
+          std::vector<LessonPlan> plans)
+      : table_(table), gram_(gram), settings_(settings), plans_(std::move(plans)), made_(plans_.size()) {}
+
+  const LessonPlan& plan(std::size_t i) const { return plans_.at(i); }
+  const FeatureTable& table() const { return table_; }
+
+  const Lesson& lesson(std::size_t i) {
+    Made& made = made_.at(i);
+    std::call_once(made.once, [&] { made.lesson.emplace(table_, gram_, plans_[i].taught, settings_); });
+    return *made.lesson;
+  }
+
+ private:
+  struct Made {
+    std::once_flag once;
+    std::optional<Lesson> lesson;
+  };
+
+  const FeatureTable& table_;
+  const SharedGram& gram_;
+  const JudgeSettings settings_;
+  const std::vector<LessonPlan> plans_;
+  std::vector<Made> made_;
+};
+
+std::string do_judges(Lessons& lessons, std::string_view bytes) {
+  Unpacker fields(bytes);
+  const auto number = fields.get<std::uint32_t>();
+  const auto first = fields.get<std::uint32_t>();
+  const auto last = fields.get<std::uint32_t>();
+  const Lesson& lesson = lessons.lesson(number);
+  const std::vector<CategoryPair> pairs = all_pairs(static_cast<std::uint32_t>(lessons.table().categories.size()));
+  const std::vector<Judge> judges = lesson.teach(std::span(pairs).subspan(first, last - first));
+  Packer packer;
+  const std::vector<std::uint32_t>& judged = lessons.plan(number).judged;
+  if (judged.empty()) {
+    for (const Judge& judge : judges) {
+      pack_judge(packer, judge);
+    }
+    return packer.take();
+  }
+  pack_matrix(packer, lesson.margins(judges, judged));
+  return packer.take();
+}
+
+}  // namespace
+
+std::string pack_table(const FeatureTable& table) {
+  const auto& [objects, categories, skipped, features, blocks, local_size, words, seed, rows_per_object, parts,
+               encoding,
+               seconds] = table;                            // does not compile when a member is forgotten
+  static_cast<void>(std::tie(skipped, encoding, seconds));  // not for other ranks
+  Packer packer;
+  packer.add(static_cast<std::uint32_t>(categories.size()));
+  const std::vector<std::uint32_t> labels = table.object_labels();
+  packer.add(std::span<const std::uint32_t>(labels)).add(std::span<const std::uint32_t>(blocks));
+  packer.add(local_size).add(words).add(seed).add(rows_per_object).add(parts);
+  pack_matrix(packer, features);
+  return packer.take();
+}
+
+FeatureTable unpack_table(Unpacker& fields) {
+  FeatureTable table;
+  table.categories.resize(fields.get<std::uint32_t>());
+  for (const std::uint32_t label : fields.get_values<std::uint32_t>()) {
+    table.objects.push_back({{}, label, {}});
+  }
+  table.blocks = fields.get_values<std::uint32_t>();
+  table.local_size = fields.get<std::uint32_t>();
+  table.words = fields.get<std::uint32_t>();
+  table.seed = fields.get<std::uint64_t>();
+  table.rows_per_object = fields.get<std::uint32_t>();
+  table.parts = fields.get<std::uint32_t>();
+  table.features = unpack_matrix<FeatureMatrix>(fields);
+  return table;
+}
+
+std::string pack_gram(const SharedGram& gram) {
+  Packer packer;
+  packer.add(static_cast<std::uint32_t>(gram.blocks.size()));
+  for (const Eigen::MatrixXf& block : gram.blocks) {
+    pack_matrix(packer, block);
+  }
+  return packer.take();
+}
+
+SharedGram unpack_gram(Unpacker& fields) {
+  SharedGram gram;
+  const auto blocks = fields.get<std::uint32_t>();
+  for (std::uint32_t b = 0; b < blocks; ++b) {
+    gram.blocks.push_back(unpack_matrix<Eigen::MatrixXf>(fields));
+  }
+  return gram;
+}
+
+std::vector<GramTask> gram_tasks(const FeatureTable& table, KernelKind kind) {
+  const std::size_t matrices = gram_columns(kind, table.blocks, table.features.cols()).size();
+  const auto strips = static_cast<std::uint32_t>(gram_strips(table.features.rows()));
+  std::vector<GramTask> tasks;
+  for (std::uint32_t s = strips; s-- > 0;) {
+    for (std::uint32_t matrix = 0; matrix < matrices; ++matrix) {
+      tasks.push_back({matrix, s});
+    }
+  }
+  return tasks;
+}
+
+std::string pack(const GramTask& task) {
+  return Packer().add(task.matrix).add(task.strip).take();
+}
+
+void put_strip(const GramTask& task, std::string_view result, SharedGram& gram) {
+  Unpacker fields(result);
+  put_gram_strip(unpack_matrix<Eigen::MatrixXf>(fields), task.strip, gram.blocks[task.matrix]);
+}
+
+Work gram_work(const FeatureTable& table, KernelKind kind) {
+  return [&table, columns = gram_columns(kind, table.blocks, table.features.cols())](std::string_view bytes) {
+    Unpacker fields(bytes);
+    const auto [first, count] = columns.at(fields.get<std::uint32_t>());
+    Packer packer;
+    pack_matrix(packer, gram_strip(table.features.middleCols(first, count), fields.get<std::uint32_t>()));
+    return packer.take();
+  };
+}
+
+std::vector<JudgesTask> judges_tasks(const FeatureTable& table, KernelKind kind, std::span<const LessonPlan> lessons) {
+  constexpr std::uint32_t kJudges = 32;  // short tasks, so that the last ones keep nobody waiting for long
+  const auto categories = static_cast<std::uint32_t>(table.categories.size());
+  const std::uint32_t pairs = categories * (categories - 1) / 2;
+  std::vector<JudgesTask> tasks;
+  for (std::uint32_t lesson = 0; lesson < lessons.size(); ++lesson) {
+    // The margins of all judges with a kernel of their own need the same row of it, which takes longest.
+    const bool together = kind != KernelKind::linear && !lessons[lesson].judged.empty();
+    const std::uint32_t each = together ? pairs : kJudges;
+    for (std::uint32_t first = 0; first < pairs; first += each) {
+      tasks.push_back({lesson, first, std::min(first + each, pairs)});
+    }
+  }
+  return tasks;
+}
+
+std::string pack(const JudgesTask& task) {
+  return Packer().add(task.lesson).add(task.first).add(task.last).take();
+}
+
+std::vector<Judge> unpack_judges(std::string_view result) {
+  std::vector<Judge> judges;
+  Unpacker fields(result);
+  while (!fields.empty()) {
+    judges.push_back(unpack_judge(fields));
+  }
+  return judges;
+}
+
+FeatureMatrix unpack_margins(std::string_view result, std::size_t objects) {
+  Unpacker fields(result);
+  auto margins = unpack_matrix<FeatureMatrix>(fields);
+  if (margins.rows() != static_cast<Eigen::Index>(objects)) {
+    throw RunError("a message between ranks holds margins of other objects");
+  }
+  return margins;
+}
+
+std::string pack_lessons(const JudgeSettings& settings, std::span<const LessonPlan> lessons) {
+  const auto& [kernel, c, class_weights] = settings;
+  Packer packer;
+  packer.add(kernel).add(c).add(class_weights);
+  for (const auto& [taught, judged] : lessons) {
+    packer.add(std::span<const std::uint32_t>(taught)).add(std::span<const std::uint32_t>(judged));
+  }
+  return packer.take();
+}
+
+Work judges_work(const FeatureTable& table, const SharedGram& gram, const JudgeSettings& settings,
+                 std::vector<LessonPlan> lessons) {
+  const auto all = std::make_shared<Lessons>(table, gram, settings, std::move(lessons));
+  return [all](std::string_view task) { return do_judges(*all, task); };
+}
+
+Work make_table_work(std::string_view context, KeptData& kept) {
+  Unpacker fields(context);
+  kept = {};  // first: both at once may be too much
+  kept.data.table = unpack_table(fields);
+  return {};
+}
+
+Work make_gram_keeping_work(std::string_view context, KeptData& kept) {
+  Unpacker fields(context);
+  kept.gram = unpack_gram(fields);
+  return {};
+}
+
+Work make_gram_work(std::string_view context, const KeptData& kept) {
+  Unpacker fields(context);
+  return gram_work(kept.data.table, fields.get<KernelKind>());
+}
+
+Work make_judges_work(std::string_view context, const KeptData& kept) {
+  Unpacker fields(context);
+  JudgeSettings settings;
+  settings.kernel = fields.get<KernelKind>();
+  settings.c = fields.get<double>();
+  settings.class_weights = fields.get<bool>();
+  std::vector<LessonPlan> lessons;
+  while (!fields.empty()) {
+    LessonPlan& plan = lessons.emplace_back();
+    plan.taught = fields.get_values<std::uint32_t>();
+    plan.judged = fields.get_values<std::uint32_t>();
+  }
+  return judges_work(kept.data.table, kept.gram, settings, std::move(lessons));
+}
+
+}  // namespace spincat

@@ -1,0 +1,74 @@
+// Private to the library, not installed: what ranks do for a teacher, and what they keep for it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "spincat/judge/judge_list.h"
+#include "spincat/parallel/packing.h"
+#include "spincat/parallel/task.h"
+#include "spincat/pipeline/evaluate.h"
+#include "spincat/pipeline/feature_table.h"
+
+namespace spincat {
+
+// What a rank keeps from one job to the next.
+struct KeptData {
+  EvaluationData data;  // the table; the rest where an evaluation is on
+  SharedGram gram;
+};
+
+// Sent once, kept by the others. Of objects only their categories are.
+std::string pack_table(const FeatureTable& table);
+FeatureTable unpack_table(Unpacker& fields);
+std::string pack_gram(const SharedGram& gram);
+SharedGram unpack_gram(Unpacker& fields);
+
+// One strip of one of the matrices of a SharedGram.
+struct GramTask {
+  std::uint32_t matrix = 0;
+  std::uint32_t strip = 0;
+};
+
+// All of them, the longest first.
+std::vector<GramTask> gram_tasks(const FeatureTable& table, KernelKind kind);
+std::string pack(const GramTask& task);
+// Puts the result of such a task into `gram`, whose matrices have their sizes.
+void put_strip(const GramTask& task, std::string_view result, SharedGram& gram);
+Work gram_work(const FeatureTable& table, KernelKind kind);
+
+// A training, and the objects whose margins are wanted; with none, the judges themselves are.
+struct LessonPlan {
+  std::vector<std::uint32_t> taught;
+  std::vector<std::uint32_t> judged;
+};
+
+// Some judges of one of the lessons.
+struct JudgesTask {
+  std::uint32_t lesson = 0;
+  std::uint32_t first = 0;  // of all pairs
+  std::uint32_t last = 0;
+};
+
+std::vector<JudgesTask> judges_tasks(const FeatureTable& table, KernelKind kind, std::span<const LessonPlan> lessons);
+std::string pack(const JudgesTask& task);
+std::vector<Judge> unpack_judges(std::string_view result);
+// Margins of the judged objects: a row for each object, a column for each judge of the task.
+FeatureMatrix unpack_margins(std::string_view result, std::size_t objects);
+std::string pack_lessons(const JudgeSettings& settings, std::span<const LessonPlan> lessons);
+// The lessons' common parts are made when their first task comes.
+Work judges_work(const FeatureTable& table, const SharedGram& gram, const JudgeSettings& settings,
+                 std::vector<LessonPlan> lessons);
+
+// The same works on other ranks, from what they keep.
+Work make_table_work(std::string_view context, KeptData& kept);
+Work make_gram_keeping_work(std::string_view context, KeptData& kept);
+Work make_gram_work(std::string_view context, const KeptData& kept);
+Work make_judges_work(std::string_view context, const KeptData& kept);
+
+}  // namespace spincat

@@ -1,0 +1,69 @@
+// Teaching judges on all threads and ranks of a farm.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "spincat/judge/calibration.h"
+#include "spincat/judge/familiarity.h"
+#include "spincat/judge/judge_list.h"
+#include "spincat/parallel/task_farm.h"
+#include "spincat/pipeline/feature_table.h"
+#include "spincat/pipeline/progress.h"
+
+namespace spincat {
+
+// How many trainings a teacher is made for: decides whether it pays to give other ranks the table.
+struct TeachingPlan {
+  std::size_t lessons = 1;
+};
+
+// Teaches on a table of features. The inner products of all its rows, which every judge needs, are computed once. Pairs
+// of categories are independent tasks; so are those of the folds of a calibration. The results do not depend on the
+// number of threads and ranks.
+class Teacher {
+ public:
+  // Gives the other ranks the table where that pays: where sending it takes less time than it saves. What is passed by
+  // reference must outlive this object.
+  Teacher(const FeatureTable& table, const JudgeSettings& settings, TaskFarm& farm, TeachingPlan plan,
+          const Progress& progress = {});
+  // One that knows the inner products (or that there are none), and works on threads of this process.
+  Teacher(const FeatureTable& table, const SharedGram& gram, const JudgeSettings& settings, int threads);
+
+  // The inner products of the whole table, which all judges share; empty when they would be too large to keep (above
+  // a gigabyte: 16,384 rows with one matrix), or when the table holds local features: judges then compute their own
+  // parts.
+  const SharedGram& gram() const { return *gram_; }
+
+  // Where jobs are done: on all ranks that have the table.
+  TaskFarm& farm() { return *farm_; }
+
+  // Teaches the judge of every pair of categories on the given objects and their copies. Where the table holds local
+  // features, their codebook is learned first, from these objects alone.
+  // Precondition: every category has an object among them.
+  JudgeList teach(std::span<const std::uint32_t> objects, const Progress& progress = {});
+
+  // Calibrates the confidence by five-fold cross-validation on the given objects alone: each is judged by judges that
+  // were taught on the others, and once more as a stranger, without the judges that know its category. Categories with
+  // a single object are always taught on and never judged.
+  Calibration calibrate(std::span<const std::uint32_t> objects, std::uint64_t seed, const Progress& progress = {});
+
+ private:
+  void compute_gram(const Progress& progress);
+
+  const FeatureTable& table_;
+  const JudgeSettings settings_;
+  std::optional<OwnFarm> own_;
+  TaskFarm* farm_;
+  SharedGram own_gram_;
+  const SharedGram* gram_ = &own_gram_;
+};
+
+// The given objects as familiarity sees them: the first part of their features (what is seen from outside), without
+// copies: strangers stand out in it more than in all parts together (docs/accuracy.md). Empty where the table has none
+// to compare objects by.
+Familiarity familiarity_of(const FeatureTable& table, std::span<const std::uint32_t> objects);
+
+}  // namespace spincat

@@ -1,0 +1,153 @@
+// Teaching shared out over ranks (threads that play them) gives what one thread gives.
+#include "spincat/pipeline/teacher.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <thread>
+#include <vector>
+
+#include "parallel/thread_ranks.h"
+#include "spincat/geometry/random.h"
+#include "spincat/parallel/task_server.h"
+#include "spincat/pipeline/task_kinds.h"
+#include "spincat/pipeline/teach_tasks.h"
+#include "spincat/pipeline/trial.h"
+
+namespace spincat {
+namespace {
+
+constexpr TeachingPlan kWorthSharing{1'000'000'000};  // so much work that a tiny table is sent
+
+// 30 objects of three categories, each with a copy; 24 features in blocks of 8, or as three local features.
+FeatureTable noisy_table(bool local) {
+  FeatureTable table;
+  table.categories = {"a", "b", "c"};
+  table.rows_per_object = 2;
+  table.blocks = {8, 8, 8};
+  table.local_size = local ? 8 : 0;
+  table.words = 4;
+  table.features.resize(60, 24);
+  Random random(5);
+  for (std::uint32_t i = 0; i < 30; ++i) {
+    table.objects.push_back({"object", i % 3, ""});
+    for (Eigen::Index row = 2 * i; row < 2 * i + 2; ++row) {
+      for (Eigen::Index d = 0; d < 24; ++d) {
+        table.features(row, d) = static_cast<float>(0.5 * random.normal() + (d % 8 == i % 3 ? 1.0 : 0.0));
+      }
+    }
+  }
+  return table;
+}
+
+std::vector<std::uint32_t> all_objects() {
+  std::vector<std::uint32_t> objects(30);
+  std::iota(objects.begin(), objects.end(), 0U);
+  return objects;
+}
+
+struct Taught {
+  JudgeList judges;
+  Calibration calibration;
+};
+
+Taught teach_on(TaskFarm& farm, const FeatureTable& table, const JudgeSettings& settings) {
+  Teacher teacher(table, settings, farm, kWorthSharing);
+  EXPECT_EQ(&teacher.farm(), &farm);  // else nothing would be shared out
+  return {teacher.teach(all_objects()), teacher.calibrate(all_objects(), 7)};
+}
+
+// Ranks that serve as the command's do.
+class ServingRanks {
+ public:
+  explicit ServingRanks(int count) : wires_(std::make_shared<test::Wires>(count)), own_(wires_, 0) {
+    for (int r = 1; r < count; ++r) {
+      servers_.emplace_back([wires = wires_, r] {
+        test::ThreadCommunicator ranks(wires, r);
+        serve(
+            ranks, pipeline_work(), [](int) { return 2; }, [] {});
+      });
+    }
+  }
+  ~ServingRanks() {
+    for (std::thread& server : servers_) {
+      server.join();
+    }
+  }
+  Communicator& communicator() { return own_; }
+
+ private:
+  std::shared_ptr<test::Wires> wires_;
+  test::ThreadCommunicator own_;
+  std::vector<std::thread> servers_;
+};
+
+class Teaching : public testing::TestWithParam<std::tuple<KernelKind, bool>> {};
+INSTANTIATE_TEST_SUITE_P(Kernels, Teaching,
+                         testing::Combine(testing::Values(KernelKind::linear, KernelKind::rbf), testing::Bool()));
+
+TEST_P(Teaching, DoesNotDependOnRanksAndThreads) {
+  const auto [kernel, local] = GetParam();
+  const FeatureTable table = noisy_table(local);
+  const JudgeSettings settings{kernel, default_c(kernel), true};
+  OwnFarm one(1);
+  Teacher alone(table, settings, one.farm(), kWorthSharing);
+  const JudgeList judges = alone.teach(all_objects());
+  const Calibration calibration = alone.calibrate(all_objects(), 7);
+  ASSERT_EQ(judges.size(), 3U);
+  EXPECT_NE(calibration.slope, Calibration{}.slope);
+  for (const int count : {2, 4}) {
+    ServingRanks ranks(count);
+    TaskFarm farm(ranks.communicator());
+    farm.use_threads(2, 2);
+    const Taught taught = teach_on(farm, table, settings);
+    EXPECT_EQ(taught.judges.weights, judges.weights);
+    EXPECT_EQ(taught.judges.bias, judges.bias);
+    EXPECT_EQ(taught.judges.supports, judges.supports);
+    EXPECT_EQ(taught.calibration.slope, calibration.slope);
+    EXPECT_EQ(taught.calibration.offset, calibration.offset);
+    EXPECT_EQ(taught.calibration.familiarity_slope, calibration.familiarity_slope);
+  }
+}
+
+TEST(Teaching, TinyTablesStayHere) {
+  const FeatureTable table = noisy_table(false);
+  ServingRanks ranks(2);
+  TaskFarm farm(ranks.communicator());
+  Teacher teacher(table, {}, farm, {});
+  EXPECT_NE(&teacher.farm(), &farm);
+}
+
+TEST(Trials, AreTheSameFromWhatARankKeeps) {
+  EvaluationData data;
+  data.table = noisy_table(false);
+  data.strangers.objects.push_back({"stranger", 0, ""});
+  data.strangers.features = FeatureMatrix::Constant(1, 24, 2.0F);
+  data.strangers.problems = {""};
+  data.tested = TestTable{
+      data.table.objects, data.table.features(Eigen::seq(1, 59, 2), Eigen::all), std::vector<std::string>(30), {}};
+  const Settings settings = preset("default");
+  OwnFarm one(1);
+  Teacher teacher(data.table, settings.judge, one.farm(), {});
+  Split split;
+  for (std::uint32_t i = 0; i < 30; ++i) {
+    (i % 4 == 0 ? split.test : split.train).push_back(i);
+  }
+  const Trial expected = run_trial(data, teacher, split, settings, true);
+  EXPECT_EQ(expected.named.size(), split.test.size());
+  EXPECT_EQ(expected.strangers.size(), 1U);
+
+  KeptData kept;
+  make_table_work(pack_table(data.table), kept);
+  make_gram_keeping_work(pack_gram(teacher.gram()), kept);
+  const Work work = make_trial_work(pack_trials(data, settings, true), kept);
+  const Trial found = unpack_trial(work(pack(split)), 3);
+  EXPECT_EQ(found.confusion, expected.confusion);
+  EXPECT_EQ(found.named, expected.named);
+  EXPECT_EQ(found.right, expected.right);
+  EXPECT_EQ(found.wrong, expected.wrong);
+  EXPECT_EQ(found.strangers, expected.strangers);
+}
+
+}  // namespace
+}  // namespace spincat

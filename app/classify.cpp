@@ -68,6 +68,25 @@ std::vector<Input> expand_folders(const std::vector<fs::path>& arguments) {
   return inputs;
 }
 
+// Objects of a kind that the judges were not taught for: told once, not for each.
+struct Misfits {
+  std::size_t count = 0;
+  std::string first;
+
+  void add(const fs::path& file, const Answer& answer) {
+    if (answer.classification && !answer.classification->misfit.empty() && count++ == 0) {
+      first = file.string() + ": " + answer.classification->misfit;
+    }
+  }
+
+  void tell() const {
+    if (count > 0) {
+      std::fflush(stdout);
+      message(first + (count > 1 ? fmt::format(" ({} more are of such a kind)", count - 1) : ""));
+    }
+  }
+};
+
 // A folder without objects has no file to be named, but an answer all the same.
 Answer problem_of(const Input& input) {
   return {{}, input.file.string() + ": " + input.problem};
@@ -92,7 +111,9 @@ Classified classify_all(const Model& model, const std::vector<Input>& inputs, co
   ProgressBar bar(arguments.run);
   std::size_t printed = 0;
   Classified result;
+  Misfits misfits;
   const auto print = [&](const Answer& answer) {
+    misfits.add(inputs[printed].file, answer);
     result.failed += answer.classification ? 0 : 1;
     bar.wipe();
     printer.print(names[printed], answer);
@@ -120,6 +141,10 @@ Classified classify_all(const Model& model, const std::vector<Input>& inputs, co
   };
   classify_files(farm, job, deliver, [&](std::size_t) { bar.update("naming objects", printed, inputs.size()); });
   print_problems();
+  bar.wipe();
+  if (!arguments.run.quiet) {
+    misfits.tell();
+  }
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "evaluate_options.h"
 #include "farm_run.h"
+#include "messages.h"
 #include "options.h"
 #include "progress_bar.h"
 #include "spincat/dataset/object_files.h"
@@ -124,6 +125,9 @@ int run_evaluate(const EvaluateArguments& arguments, TaskFarm& farm) {
   }
   report_left_out(evaluation.left_out, arguments.run);
   report_skipped(evaluation.skipped, arguments.run);
+  if (!evaluation.misfit.empty() && !arguments.run.quiet) {
+    message("what is tested " + evaluation.misfit);
+  }
   if (arguments.run.json) {
     fmt::print("{}\n", evaluation_json(evaluation, settings, options, command_line()));
   } else {

@@ -151,6 +151,12 @@ void SettingsArguments::add_to(CLI::App& command) {
                   "What is to be named later: meshes, or any: point clouds, too (takes twice the time to learn)")
       ->group(group)
       ->type_name("KIND");
+  command
+      .add_option("--views", views,
+                  "Learn what a depth camera sees: so many rendered views of each training object, for spincat camera "
+                  "(30: better, takes longer); their axis that points up is y, or what --up says")
+      ->group(group)
+      ->type_name("N");
   command.add_option("--up", up, "The axis that points up in all objects: x, y, z or none (default)")
       ->group(group)
       ->type_name("AXIS");
@@ -182,6 +188,15 @@ Settings SettingsArguments::applied_to(Settings s) const {
   override(s.words, words);
   override(s.draws, draws);
   override(s.copies, copies);
+  if (taught_for && choice_of<TaughtFor>("--for", *taught_for) == TaughtFor::views && !views) {
+    throw InputError("--for views asks for --views N");
+  }
+  if (views) {
+    if (taught_for && *taught_for != "views") {
+      throw InputError("--views and --for " + *taught_for + " exclude each other");
+    }
+    s = taught_by_views(s, *views);
+  }
   if (encoding && make_encoding(*encoding)->gives_local_features()) {  // which cannot be joined
     s.plain_samples = false;
     s.draws = draws.value_or(1);

@@ -57,6 +57,7 @@ struct SettingsArguments {
   std::optional<std::string> kernel;
   std::optional<double> c;
   std::optional<int> copies;
+  std::optional<int> views;
 
   void add_to(CLI::App& command);
   // Only those that decide about the spin images: no preset, nothing of encodings and judges.

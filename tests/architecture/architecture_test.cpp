@@ -24,8 +24,8 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"judge", {"encode"}},
     {"parallel", {}},
     {"camera", {"geometry", "io"}},
-    {"pipeline", {"geometry", "io", "dataset", "prepare", "spin", "encode", "judge", "parallel"}},
-    {"report", {"geometry", "dataset", "prepare", "spin", "judge", "pipeline"}},
+    {"pipeline", {"geometry", "io", "dataset", "prepare", "spin", "encode", "judge", "parallel", "camera"}},
+    {"report", {"geometry", "dataset", "prepare", "spin", "judge", "camera", "pipeline"}},
 };
 
 std::vector<std::string> includes_of(const fs::path& file) {

@@ -1,5 +1,5 @@
-// Real pictures of a Kinect with every pixel's object known: shared data that SPINCAT_KINECT points to (a folder that holds
-// mosd-dev/).
+// Real pictures of a Kinect with every pixel's object known: shared data that SPINCAT_KINECT points to (a folder that
+// holds mosd-dev/).
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -23,7 +23,7 @@ constexpr double kLeastPixels = 300.0;  // of a labelled part that is counted
 constexpr int kFirstObject = 20;        // labels below are the table's
 
 // For each labelled part of a scene the best intersection over union with an object that was found.
-std::vector<double> agreements(const fs::path& scene, const Calibration& calibration) {
+std::vector<double> agreements(const fs::path& scene, const CameraCalibration& calibration) {
   const DepthImage image = decode_depth_png(read_file(scene / "depth.png"), calibration.units_per_metre);
   const DepthImage labels = decode_depth_png(read_file(scene / "label.png"), 1.0);
   const std::optional<Table> table = find_table(image, calibration.intrinsics, {});
@@ -32,7 +32,7 @@ std::vector<double> agreements(const fs::path& scene, const Calibration& calibra
     return {};
   }
   SegmentSettings settings;
-  settings.split = Split::concave;
+  settings.split = SegmentSplit::concave;
   const Segmentation found = segment(image, calibration.intrinsics, *table, settings);
   std::map<int, double> pixels;
   std::map<std::pair<int, int>, double> shared;
@@ -61,7 +61,7 @@ TEST(Kinect, PartsOfRealScenesAreFound) {
     GTEST_SKIP() << "SPINCAT_KINECT does not name the folder that holds mosd-dev/";
   }
   const fs::path folder = fs::path(data) / "mosd-dev";
-  const Calibration calibration = read_calibration(folder / "camera.txt");
+  const CameraCalibration calibration = read_calibration(folder / "camera.txt");
   std::vector<double> best;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.is_directory()) {

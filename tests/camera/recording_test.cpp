@@ -29,6 +29,11 @@ void write_picture(const std::filesystem::path& file, float depth) {
   write_file_atomically(file, encode_depth_png(picture_of(depth), 1000.0));
 }
 
+// Without it pictures are expected to be a Kinect's, 640 x 480.
+void write_calibration(const std::filesystem::path& folder) {
+  write_file_atomically(folder / "camera.txt", calibration_text({}));
+}
+
 std::vector<float> depths_of(FrameSource& source) {
   std::vector<float> depths;
   while (const std::optional<Frame> frame = source.next()) {
@@ -39,6 +44,7 @@ std::vector<float> depths_of(FrameSource& source) {
 
 TEST(Recording, ComesInTheOrderInWhichPeopleCount) {
   const TempDir dir;
+  write_calibration(dir.path());
   write_picture(dir.path() / "frame10.png", 1.0F);
   write_picture(dir.path() / "frame9.png", 0.9F);
   write_picture(dir.path() / "frame0100.png", 2.0F);
@@ -48,6 +54,7 @@ TEST(Recording, ComesInTheOrderInWhichPeopleCount) {
 
 TEST(Recording, TakesOrderAndTimesFromTumsList) {
   const TempDir dir;
+  write_calibration(dir.path());
   std::filesystem::create_directory(dir.path() / "depth");
   write_picture(dir.path() / "depth/a.png", 1.0F);
   write_picture(dir.path() / "depth/b.png", 2.0F);
@@ -62,6 +69,7 @@ TEST(Recording, TakesOrderAndTimesFromTumsList) {
 
 TEST(Recording, GoesOnAfterAFrameThatCannotBeRead) {
   const TempDir dir;
+  write_calibration(dir.path());
   write_picture(dir.path() / "1.png", 1.0F);
   const std::string whole = encode_depth_png(picture_of(1.0F), 1000.0);
   write_file_atomically(dir.path() / "2.png", whole.substr(0, whole.size() / 2));
@@ -72,8 +80,24 @@ TEST(Recording, GoesOnAfterAFrameThatCannotBeRead) {
   EXPECT_EQ(source->next()->image.at(0, 0), 3.0F);
 }
 
+TEST(Recording, LeavesFramesOut) {
+  const TempDir dir;
+  write_calibration(dir.path());
+  for (const int k : {1, 2, 3}) {
+    write_picture(dir.path() / (std::to_string(k) + ".png"), static_cast<float>(k));
+  }
+  write_file_atomically(dir.path() / "2.png", "nothing");  // what is left out need not be readable
+  const auto source = open_recording(dir.path(), {});
+  EXPECT_EQ(source->next()->image.at(0, 0), 1.0F);
+  source->skip();
+  EXPECT_EQ(source->next()->image.at(0, 0), 3.0F);
+  source->skip();  // beyond the end
+  EXPECT_FALSE(source->next());
+}
+
 TEST(Recording, BeginsAgainWhereItLoops) {
   const TempDir dir;
+  write_calibration(dir.path());
   write_picture(dir.path() / "1.png", 1.0F);
   write_picture(dir.path() / "2.png", 2.0F);
   FrameSettings settings;
@@ -91,7 +115,10 @@ TEST(Recording, BeginsAgainWhereItLoops) {
 TEST(Recording, IsCalibratedByItsFolderOrByAFile) {
   const TempDir dir;
   write_picture(dir.path() / "1.png", 1.0F);
-  EXPECT_EQ(open_recording(dir.path(), {})->next()->intrinsics.fx, 525.0);
+  EXPECT_NE(input_error([&] {
+              open_recording(dir.path(), {})->next();
+            }).find("is 4 x 3 pixels large where the calibration says 640 x 480"),
+            std::string::npos);
   write_file_atomically(dir.path() / "camera.txt", "fx 600\nfy 601\ncx 2\ncy 1\nunits_per_metre 500\n");
   const std::optional<Frame> frame = open_recording(dir.path(), {})->next();
   EXPECT_EQ(frame->intrinsics.fy, 601.0);
@@ -146,11 +173,11 @@ TEST(Recording, SaysWhatIsWrongWithThePlace) {
 }
 
 TEST(Calibration, ReadsWhatItWrote) {
-  Calibration calibration;
+  CameraCalibration calibration;
   calibration.intrinsics = {570.5, 571.25, 320.0, 240.125};
   calibration.units_per_metre = 5000.0;
   calibration.width = 640;
-  const Calibration back = parse_calibration(calibration_text(calibration));
+  const CameraCalibration back = parse_calibration(calibration_text(calibration));
   EXPECT_EQ(back.intrinsics.fy, 571.25);
   EXPECT_EQ(back.intrinsics.cy, 240.125);
   EXPECT_EQ(back.units_per_metre, 5000.0);

@@ -82,5 +82,23 @@ TEST(Ballot, ATieForTheSecondPlaceIsNoTie) {
   EXPECT_EQ(ballot.weakest_margin, 1.0F);
 }
 
+TEST(SummedVotes, AreCountedLikeASingleBallot) {
+  // Two frames speak for 1 by little, one for 0 by much: votes 0: 1 + 1 + 2, 1: 2 + 2 + 1, 2: none.
+  const std::vector<Ballot> ballots = {count_votes(3, std::vector<float>{-0.1F, 0.1F, 0.1F}),
+                                       count_votes(3, std::vector<float>{-0.1F, 0.1F, 0.1F}),
+                                       count_votes(3, std::vector<float>{9.0F, 9.0F, 0.1F})};
+  const SummedVotes sum = sum_votes(ballots);
+  EXPECT_EQ(sum.ballots, 3U);
+  EXPECT_EQ(sum.count, (Counts{4, 5, 0}));
+  EXPECT_EQ(sum.winner, 1U);
+  EXPECT_EQ(sum.runner_up, 0U);
+  EXPECT_NEAR(sum.margin_sum[0], 18.0, 1e-5);
+  // As many votes for both: the margins decide.
+  const SummedVotes tied = sum_votes(std::vector<Ballot>{ballots[0], ballots[2]});
+  EXPECT_EQ(tied.count, (Counts{3, 3, 0}));
+  EXPECT_EQ(tied.winner, 0U);
+  EXPECT_EQ(sum_votes(std::vector<Ballot>{ballots[1]}).winner, ballots[1].winner);
+}
+
 }  // namespace
 }  // namespace spincat

@@ -64,5 +64,15 @@ TEST(BallotWithout, IsTheVoteOfTheOtherJudges) {
   EXPECT_EQ(ballot_without(whole, 3).winner, 1U);
 }
 
+TEST(Familiarity, RowsOfOneObjectAreNoNeighbours) {
+  FeatureMatrix objects(6, 1);
+  objects << 0.0F, 0.1F, 3.0F, 3.1F, 10.0F, 10.1F;
+  const Familiarity by_object = make_familiarity(objects, {0, 0, 0, 0, 1, 1}, 2, 2);
+  // 0 -> 3, .1 -> 3, 3 -> .1, 3.1 -> .1: squared 9, 8.41, 8.41, 9; category 1 has no other object and takes the mean.
+  EXPECT_NEAR(by_object.typical[0], 8.705F, 1e-4F);
+  EXPECT_NEAR(by_object.typical[1], 8.705F, 1e-4F);
+  EXPECT_NEAR(make_familiarity(objects, {0, 0, 0, 0, 1, 1}, 2).typical[0], 0.01F, 1e-4F);
+}
+
 }  // namespace
 }  // namespace spincat

@@ -44,6 +44,7 @@ Model small_model() {
   model.familiarity = make_familiarity(objects, {0, 1, 2, 0}, 3);
   model.dataset = "a \"data\" set";
   model.object_counts = {7, 8, 9};
+  model.kinds = {20, 4};
   model.made_by = "spincat 0.1.0";
   return model;
 }
@@ -138,6 +139,8 @@ TEST(ModelFile, RoundTripsExactly) {
   EXPECT_EQ(back.familiarity.spread, model.familiarity.spread);
   EXPECT_EQ(back.dataset, model.dataset);
   EXPECT_EQ(back.object_counts, model.object_counts);
+  EXPECT_EQ(back.kinds.meshes, model.kinds.meshes);
+  EXPECT_EQ(back.kinds.clouds, model.kinds.clouds);
   EXPECT_EQ(back.made_by, model.made_by);
   EXPECT_EQ(back.feature_length(), 5U);
   EXPECT_EQ(bytes_of(back), bytes_of(model));
@@ -171,7 +174,8 @@ TEST(ModelFile, WhatIsNoModelIsRefused) {
 }
 
 TEST(ModelFile, AMissingMemberIsNamed) {
-  for (const char* name : {"settings", "categories", "judges", "calibration", "dataset", "object_counts", "made_by"}) {
+  for (const char* name :
+       {"settings", "categories", "judges", "calibration", "dataset", "object_counts", "kinds", "made_by"}) {
     EXPECT_EQ(problem_after([&](Json& json) { json.erase(name); }), "model: '" + std::string(name) + "' is missing");
   }
   for (const char* name : {"features", "weights", "bias", "support_vectors"}) {
@@ -186,7 +190,8 @@ TEST(ModelFile, AMissingMemberIsNamed) {
 }
 
 TEST(ModelFile, AMemberOfTheWrongTypeIsRefused) {
-  for (const char* name : {"settings", "categories", "judges", "calibration", "dataset", "object_counts", "made_by"}) {
+  for (const char* name :
+       {"settings", "categories", "judges", "calibration", "dataset", "object_counts", "kinds", "made_by"}) {
     for (const Json& wrong : {Json(nullptr), Json(1), Json(true), Json::array({Json::array()})}) {
       EXPECT_NE(problem_after([&](Json& json) { json[name] = wrong; }), "no error") << name << " = " << wrong;
     }

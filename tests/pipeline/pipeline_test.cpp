@@ -386,10 +386,10 @@ TEST(Describe, DrawsAreAveraged) {
 
 TEST(Describe, CloudCopiesAreClouds) {
   Settings settings = small_settings();
-  EXPECT_EQ(settings.training_views(), 2);
+  EXPECT_EQ(settings.training_rows(), 2);
   settings.copies = 2;
   settings.taught_for = TaughtFor::any;
-  EXPECT_EQ(settings.training_views(), 5);
+  EXPECT_EQ(settings.training_rows(), 5);
   // As many points as asked for, and not those that can be seen of a mesh: all of them may be drawn from a hidden face.
   const Object object = test::box();
   for (int copy = 1; copy < 5; ++copy) {

@@ -40,6 +40,7 @@ Settings unusual() {
   s.judge.c = 1.0 / 3.0;
   s.judge.class_weights = false;
   s.copies = 2;
+  s.views = 7;
   s.stretch = 0.125;
   s.seed = std::numeric_limits<std::uint64_t>::max();
   return s;
@@ -84,6 +85,7 @@ TEST(SettingsJson, RoundTripsEveryField) {
   EXPECT_EQ(back.judge.c, s.judge.c);
   EXPECT_EQ(back.judge.class_weights, s.judge.class_weights);
   EXPECT_EQ(back.copies, s.copies);
+  EXPECT_EQ(back.views, s.views);
   EXPECT_EQ(back.stretch, s.stretch);
   EXPECT_EQ(back.seed, s.seed);
 }
@@ -128,7 +130,7 @@ TEST(SettingsJson, RoundTripsEveryChoice) {
 
 TEST(SettingsJson, NamesAMissingField) {
   const Json whole = json_of(preset("default"));
-  EXPECT_EQ(whole.size(), 25U);
+  EXPECT_EQ(whole.size(), 26U);
   for (const auto& [field, value] : whole.items()) {
     Json json = whole;
     json.erase(field);
@@ -151,7 +153,8 @@ TEST(SettingsJson, NamesAFieldOfTheWrongType) {
 }
 
 TEST(SettingsJson, DoesNotCutNumbers) {
-  for (const char* field : {"points", "spin_points", "neighbours", "image_width", "words", "draws", "copies"}) {
+  for (const char* field :
+       {"points", "spin_points", "neighbours", "image_width", "words", "draws", "copies", "views"}) {
     const std::string expected = "setting '" + std::string(field) + "' is not a whole number in range";
     EXPECT_EQ(error_with(field, 8.5), expected);
     EXPECT_EQ(error_with(field, 8.0), expected);
@@ -174,9 +177,10 @@ TEST(SettingsJson, NamesAFieldOutOfRange) {
   EXPECT_EQ(error_with("c", std::numeric_limits<double>::quiet_NaN()), "C nan is out of range (above 0)");
   EXPECT_EQ(error_with("draws", 0), "number of draws 0 is out of range (1 to 100)");
   EXPECT_EQ(error_with("up", "w"), "up 'w' is not known (one of none, x, y, z)");
-  EXPECT_EQ(error_with("taught_for", "scans"), "taught_for 'scans' is not known (one of meshes, any)");
+  EXPECT_EQ(error_with("taught_for", "scans"), "taught_for 'scans' is not known (one of meshes, any, views)");
   EXPECT_EQ(error_with("words", 1), "number of words 1 is out of range (2 to 65536)");
   EXPECT_EQ(error_with("copies", 101), "number of copies 101 is out of range (0 to 100)");
+  EXPECT_EQ(error_with("views", 0), "number of views 0 is out of range (1 to 1000)");
   EXPECT_EQ(error_with("stretch", 2.5), "stretch 2.5 is out of range (0 to 2)");
   EXPECT_EQ(error_with("surface", "skin"), "surface 'skin' is not known (one of vertices, samples, external)");
   EXPECT_EQ(error_with("bin_size_unit", ""), "bin_size_unit '' is not known (one of absolute, resolution, relative)");

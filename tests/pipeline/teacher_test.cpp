@@ -124,8 +124,8 @@ TEST(Trials, AreTheSameFromWhatARankKeeps) {
   data.strangers.objects.push_back({"stranger", 0, ""});
   data.strangers.features = FeatureMatrix::Constant(1, 24, 2.0F);
   data.strangers.problems = {""};
-  data.tested = TestTable{
-      data.table.objects, data.table.features(Eigen::seq(1, 59, 2), Eigen::all), std::vector<std::string>(30), {}};
+  data.tested = TestTable{data.table.objects,           1,  data.table.features(Eigen::seq(1, 59, 2), Eigen::all),
+                          std::vector<std::string>(30), {}, {}};
   const Settings settings = preset("default");
   OwnFarm one(1);
   Teacher teacher(data.table, settings.judge, one.farm(), {});

@@ -52,8 +52,8 @@ std::optional<int> pixels(std::string_view name, double value) {
 
 }  // namespace
 
-Calibration parse_calibration(std::string_view text) {
-  Calibration result;
+CameraCalibration parse_calibration(std::string_view text) {
+  CameraCalibration result;
   std::map<std::string, double, std::less<>> numbers = numbers_of(text);
   for (const auto& [name, to] : {std::pair{"fx", &result.intrinsics.fx},
                                  {"fy", &result.intrinsics.fy},
@@ -84,7 +84,7 @@ Calibration parse_calibration(std::string_view text) {
   return result;
 }
 
-Calibration read_calibration(const std::filesystem::path& file) {
+CameraCalibration read_calibration(const std::filesystem::path& file) {
   try {
     return parse_calibration(read_file(file));
   } catch (const InputError& error) {
@@ -92,7 +92,7 @@ Calibration read_calibration(const std::filesystem::path& file) {
   }
 }
 
-std::string calibration_text(const Calibration& calibration) {
+std::string calibration_text(const CameraCalibration& calibration) {
   const Intrinsics& k = calibration.intrinsics;
   std::string text = fmt::format("fx {}\nfy {}\ncx {}\ncy {}\nunits_per_metre {}\n", k.fx, k.fy, k.cx, k.cy,
                                  calibration.units_per_metre);

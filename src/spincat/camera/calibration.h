@@ -10,7 +10,7 @@
 
 namespace spincat {
 
-struct Calibration {
+struct CameraCalibration {
   Intrinsics intrinsics;
   double units_per_metre = 1'000.0;  // of the numbers in depth pictures
   std::optional<int> width;          // of the frames, in pixels, where it is said
@@ -20,12 +20,12 @@ struct Calibration {
 // Reads a text of lines "fx 525", "fy 525", "cx 319.5", "cy 239.5" and maybe "units_per_metre 1000", "width 640" and
 // "height 480", in any order; empty lines and those that begin with # say nothing. fx, fy, cx and cy must be there.
 // Throws InputError (without a file name) that names the line.
-Calibration parse_calibration(std::string_view text);
+CameraCalibration parse_calibration(std::string_view text);
 
 // The same from a file; what is thrown names it.
-Calibration read_calibration(const std::filesystem::path& file);
+CameraCalibration read_calibration(const std::filesystem::path& file);
 
 // The text that parse_calibration reads.
-std::string calibration_text(const Calibration& calibration);
+std::string calibration_text(const CameraCalibration& calibration);
 
 }  // namespace spincat

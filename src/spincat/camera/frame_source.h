@@ -26,13 +26,17 @@ class FrameSource {
   // The next frame, or nothing after the last. Throws InputError, naming the file, when a frame cannot be read; the one
   // after it may be asked for then.
   virtual std::optional<Frame> next() = 0;
+
+  // Leaves the next frame out, where there is one. Does not throw for a frame that cannot be read.
+  virtual void skip();
 };
 
 struct FrameSettings {
   std::optional<std::filesystem::path> calibration;  // a file as read_calibration reads it; else the folder's
                                                      // camera.txt, else that of a Kinect
-  std::optional<double> units_per_metre;  // of the numbers in depth pictures; else the calibration's
-  bool loop = false;                      // after the last frame comes the first
+                                                     // (640 x 480)
+  std::optional<double> units_per_metre;             // of the numbers in depth pictures; else the calibration's
+  bool loop = false;                                 // after the last frame comes the first
 };
 
 // A recording: a folder of grey PNG files in the order of their names (of TUM's depth.txt where there is one, which

@@ -160,7 +160,7 @@ Frame frame_of(const OrganizedCloud& cloud) {
 
 class Recording : public FrameSource {
  public:
-  Recording(std::vector<Entry> files, const Calibration& calibration, bool loop)
+  Recording(std::vector<Entry> files, const CameraCalibration& calibration, bool loop)
       : files_(std::move(files)), calibration_(calibration), loop_(loop) {}
 
   std::optional<Frame> next() override {
@@ -176,6 +176,12 @@ class Recording : public FrameSource {
       return frame;
     } catch (const InputError& error) {
       throw error.file().empty() ? InputError(entry.file.string(), error.problem()) : error;
+    }
+  }
+
+  void skip() override {
+    if (at_ < files_.size() || loop_) {
+      ++at_;
     }
   }
 
@@ -201,12 +207,19 @@ class Recording : public FrameSource {
   }
 
   std::vector<Entry> files_;
-  Calibration calibration_;
+  CameraCalibration calibration_;
   bool loop_;
   std::size_t at_ = 0;
 };
 
 }  // namespace
+
+void FrameSource::skip() {
+  try {
+    static_cast<void>(next());
+  } catch (const InputError&) {  // it is left out all the same
+  }
+}
 
 std::unique_ptr<FrameSource> open_recording(const fs::path& place, const FrameSettings& settings) {
   if (!fs::exists(place)) {
@@ -217,7 +230,9 @@ std::unique_ptr<FrameSource> open_recording(const fs::path& place, const FrameSe
   if (files.empty()) {
     throw InputError(place.string(), "holds no depth pictures (.png) and no organized clouds (.pcd)");
   }
-  Calibration calibration;
+  CameraCalibration calibration;
+  calibration.width = 640;  // a Kinect's: of other cameras there is nothing to be guessed
+  calibration.height = 480;
   const fs::path beside = (is_folder ? place : place.parent_path()) / "camera.txt";
   if (settings.calibration) {
     calibration = read_calibration(*settings.calibration);

@@ -13,13 +13,13 @@
 namespace spincat {
 
 // How readings that hang together are parted into objects.
-enum class Split {
+enum class SegmentSplit {
   concave,    // along grooves: for things that touch or stand on each other, like boxes
   footprint,  // by what stands apart on the table: for things with legs and thin parts, like furniture
 };
 
 struct SegmentSettings {
-  Split split = Split::footprint;
+  SegmentSplit split = SegmentSplit::footprint;
   int least_pixels = 300;       // of an object
   float least_height = 0.015F;  // metres over the table that an object reaches
   float most_height = 0.6F;     // metres over the table; what is higher is not looked at

@@ -10,7 +10,7 @@
 
 namespace spincat {
 
-inline constexpr std::size_t kMostCloudPoints = 4'096;
+inline constexpr std::size_t kMostCloudPoints = 2'048;
 
 // The points of one object with their normals, as a cloud that stands on the table: in metres, z up, the sensor where
 // it was. At most kMostCloudPoints pixels are taken, evenly in the order of rows. Normals are those of the plane

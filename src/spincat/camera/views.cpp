@@ -13,6 +13,7 @@
 #include "spincat/camera/render.h"
 #include "spincat/camera/segment_cloud.h"
 #include "spincat/camera/sensor_noise.h"
+#include "spincat/camera/table_scene.h"
 #include "spincat/camera/viewpoint.h"
 #include "spincat/error.h"
 #include "spincat/geometry/random.h"
@@ -35,40 +36,6 @@ Extent extent_of(const Mesh& mesh) {
     extent.high = extent.high.cwiseMax(v);
   }
   return extent;
-}
-
-// Turns the model's own up to +z.
-Eigen::Matrix3d upright(UpAxis up) {
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-  if (up == UpAxis::y) {
-    axes << 0, 0, 1, 1, 0, 0, 0, 1, 0;
-  } else if (up == UpAxis::x) {
-    axes << 0, 1, 0, 0, 0, 1, 1, 0, 0;
-  }
-  return axes;
-}
-
-// The model on the table z = 0 with its middle over the origin, `size` metres large, turned about the vertical.
-Mesh on_table(const Mesh& model, UpAxis up, double size, double turn) {
-  if (model.vertices.empty()) {
-    throw InputError("holds no points");
-  }
-  const Extent own = extent_of(model);
-  const double extent = (own.high - own.low).maxCoeff();
-  if (!(extent > 0.0)) {
-    throw InputError("all its points are at one place");
-  }
-  const Eigen::Matrix3d rotation = Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix() * upright(up);
-  Mesh placed = model;
-  for (Vec3& v : placed.vertices) {
-    v = rotation * ((v - own.low) * (size / extent));
-  }
-  const Extent now = extent_of(placed);
-  const Vec3 foot(0.5 * (now.low.x() + now.high.x()), 0.5 * (now.low.y() + now.high.y()), now.low.z());
-  for (Vec3& v : placed.vertices) {
-    v -= foot;
-  }
-  return placed;
 }
 
 Mesh table_around(const Mesh& placed) {

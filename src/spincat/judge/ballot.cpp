@@ -1,10 +1,26 @@
 #include "spincat/judge/ballot.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <numeric>
 
 namespace spincat {
+namespace {
+
+// Categories, the best first: by votes, then by margins, then by their order.
+template <class Counted>
+std::vector<std::uint32_t> ranking(const Counted& votes) {
+  std::vector<std::uint32_t> order(votes.count.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::stable_sort(order, [&](std::uint32_t a, std::uint32_t b) {
+    return votes.count[a] != votes.count[b] ? votes.count[a] > votes.count[b]
+                                            : votes.margin_sum[a] > votes.margin_sum[b];
+  });
+  return order;
+}
+
+}  // namespace
 
 Ballot count_votes(std::uint32_t categories, std::span<const float> margins) {
   Ballot ballot;
@@ -23,12 +39,7 @@ Ballot count_votes(std::uint32_t categories, std::span<const float> margins) {
       weakest[b] = std::min(weakest[b], -vote.margin);
     }
   }
-  std::vector<std::uint32_t> order(categories);
-  std::iota(order.begin(), order.end(), 0U);
-  std::ranges::stable_sort(order, [&](std::uint32_t a, std::uint32_t b) {
-    return ballot.count[a] != ballot.count[b] ? ballot.count[a] > ballot.count[b]
-                                              : ballot.margin_sum[a] > ballot.margin_sum[b];
-  });
+  const std::vector<std::uint32_t> order = ranking(ballot);
   ballot.winner = order[0];
   ballot.runner_up = order[1];
   if (ballot.count[order[0]] == ballot.count[order[1]]) {
@@ -37,6 +48,21 @@ Ballot count_votes(std::uint32_t categories, std::span<const float> margins) {
   }
   ballot.weakest_margin = weakest[ballot.winner];
   return ballot;
+}
+
+SummedVotes sum_votes(std::span<const Ballot> ballots) {
+  SummedVotes sum;
+  sum.ballots = static_cast<std::uint32_t>(ballots.size());
+  sum.count.assign(ballots.front().count.size(), 0);
+  sum.margin_sum.assign(sum.count.size(), 0.0);
+  for (const Ballot& ballot : ballots) {
+    std::ranges::transform(sum.count, ballot.count, sum.count.begin(), std::plus<>());
+    std::ranges::transform(sum.margin_sum, ballot.margin_sum, sum.margin_sum.begin(), std::plus<>());
+  }
+  const std::vector<std::uint32_t> order = ranking(sum);
+  sum.winner = order[0];
+  sum.runner_up = order[1];
+  return sum;
 }
 
 Ballot ballot_without(const Ballot& ballot, std::uint32_t category) {

@@ -35,6 +35,18 @@ struct Ballot {
 // the order above. Deterministic. Precondition: categories >= 2, margins.size() == categories (categories - 1) / 2.
 Ballot count_votes(std::uint32_t categories, std::span<const float> margins);
 
+// Votes on one object added up: on several views of it, or over the frames in which it was seen.
+struct SummedVotes {
+  std::uint32_t ballots = 0;
+  std::vector<std::uint32_t> count;  // votes for each category
+  std::vector<double> margin_sum;    // for each category
+  std::uint32_t winner = 0;          // by the rules of a single ballot
+  std::uint32_t runner_up = 0;
+};
+
+// Precondition: one or more ballots of the same judges.
+SummedVotes sum_votes(std::span<const Ballot> ballots);
+
 // The vote as it would be if no judge knew `category`: what comes of an object whose category was never taught. The
 // other categories keep their numbers; `category` has no votes. Precondition: three or more categories.
 Ballot ballot_without(const Ballot& ballot, std::uint32_t category);

@@ -9,12 +9,13 @@
 namespace spincat {
 namespace {
 
-// Smallest squared distance to the objects of a category, but for number `but`; infinite where there is none.
+// Smallest squared distance to the rows of a category, but for those from `but` to `but_end`; infinite where there is
+// none.
 double nearest(const Familiarity& f, const Eigen::Ref<const Eigen::RowVectorXf>& x, std::uint32_t category,
-               std::size_t but) {
+               std::size_t but, std::size_t but_end) {
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < f.labels.size(); ++i) {
-    if (i != but && f.labels[i] == category) {
+    if ((i < but || i >= but_end) && f.labels[i] == category) {
       smallest = std::min<double>(smallest, (f.objects.row(static_cast<Eigen::Index>(i)) - x).squaredNorm());
     }
   }
@@ -45,10 +46,11 @@ double Familiarity::of(std::span<const float> features, std::uint32_t category) 
     return 0.0;
   }
   const Eigen::Map<const Eigen::RowVectorXf> x(features.data(), objects.cols());
-  return (typical[category] - nearest(*this, x, category, labels.size())) / spread[category];
+  return (typical[category] - nearest(*this, x, category, 0, 0)) / spread[category];
 }
 
-Familiarity make_familiarity(FeatureMatrix objects, std::vector<std::uint32_t> labels, std::uint32_t categories) {
+Familiarity make_familiarity(FeatureMatrix objects, std::vector<std::uint32_t> labels, std::uint32_t categories,
+                             std::uint32_t rows_each) {
   constexpr double kShareOfMean = 0.2;
   constexpr double kLeastSpread = 1e-12;  // where all objects are equal
   Familiarity result{std::move(objects), std::move(labels), std::vector<float>(categories),
@@ -56,7 +58,9 @@ Familiarity make_familiarity(FeatureMatrix objects, std::vector<std::uint32_t> l
   std::vector<std::vector<double>> distances(categories);
   std::vector<double> all;
   for (std::size_t i = 0; i < result.labels.size(); ++i) {
-    const double d = nearest(result, result.objects.row(static_cast<Eigen::Index>(i)), result.labels[i], i);
+    const std::size_t own = i - i % rows_each;
+    const double d =
+        nearest(result, result.objects.row(static_cast<Eigen::Index>(i)), result.labels[i], own, own + rows_each);
     if (std::isfinite(d)) {
       distances[result.labels[i]].push_back(d);
       all.push_back(d);

@@ -11,7 +11,8 @@ namespace spincat {
 
 // The training objects themselves, and how near to each other those of a category lie. Empty where nothing is known.
 struct Familiarity {
-  FeatureMatrix objects;              // N x E, without copies: the first E of the judges' D features
+  FeatureMatrix objects;  // N x E, without copies: the first E of the judges' D features; a row for each view of an
+                          // object where judges are taught by views
   std::vector<std::uint32_t> labels;  // N
   std::vector<float> typical;  // of each category: the mean squared distance of its objects to their nearest neighbour
                                // in it; of all categories together where it has a single object
@@ -26,7 +27,9 @@ struct Familiarity {
   double of(std::span<const float> features, std::uint32_t category) const;
 };
 
-// Deterministic. Precondition: a label for each row of `objects`, each below `categories`.
-Familiarity make_familiarity(FeatureMatrix objects, std::vector<std::uint32_t> labels, std::uint32_t categories);
+// Every `rows_each` rows are one object, and not each other's neighbours. Deterministic. Preconditions: a label for
+// each row of `objects`, each below `categories`; a whole number of objects.
+Familiarity make_familiarity(FeatureMatrix objects, std::vector<std::uint32_t> labels, std::uint32_t categories,
+                             std::uint32_t rows_each = 1);
 
 }  // namespace spincat

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "spincat/geometry/object.h"
 #include "spincat/judge/ballot.h"
@@ -13,6 +14,7 @@ namespace spincat {
 struct Classification {
   Ballot ballot;            // categories as indices into Model::categories
   double confidence = 0.0;  // in (0, 1): how likely the winner is right, by the model's calibration
+  std::string misfit;       // why the judges should not be trusted with this object (kinds.h); mostly empty
   StageSeconds seconds;
 };
 

@@ -1,13 +1,16 @@
 #include "spincat/pipeline/describe.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
+#include <variant>
 #include <vector>
 
+#include "spincat/camera/views.h"
 #include "spincat/encode/block_sums.h"
 #include "spincat/encode/encoding.h"
 #include "spincat/geometry/random.h"
@@ -46,11 +49,33 @@ double prepared_bin_size(const Object& given, const PreparedObject& prepared, co
 }
 
 // What the random numbers of an object are for (derive_seed's purpose).
-enum Purpose : std::uint64_t { kCloud = 200, kDraw = 201 };
+enum Purpose : std::uint64_t { kCloud = 200, kDraw = 201, kView = 202 };
 
-// What copy number `copy` of an object is: stretched, or stretched and turned into a cloud. Nothing for 0, the object
-// itself.
+// A number of the mesh itself. From the same places, models that face the same way would look more alike than they are.
+std::uint64_t seed_of(const Mesh& mesh) {
+  std::uint64_t seed = mesh.triangles.size();
+  for (const Vec3& v : mesh.vertices) {
+    for (const double x : v) {
+      seed = derive_seed(seed, std::bit_cast<std::uint64_t>(x));
+    }
+  }
+  return seed;
+}
+
+PointCloud view_number(const Mesh& mesh, const Settings& settings, int view) {
+  ViewSettings view_settings;
+  view_settings.up = settings.up;
+  const std::uint64_t seed = derive_seed(derive_seed(settings.seed, kView), seed_of(mesh));
+  return view_of(mesh, view_settings, derive_seed(seed, static_cast<std::uint64_t>(view)));
+}
+
+// What copy number `copy` of an object is: stretched, or stretched and turned into a cloud, or a view. Nothing where it
+// is the object itself.
 std::optional<Object> shape_of_copy(const Object& object, const Settings& settings, int copy) {
+  if (settings.taught_for == TaughtFor::views) {
+    const Mesh* const mesh = std::get_if<Mesh>(&object);
+    return mesh != nullptr ? std::optional<Object>(view_number(*mesh, settings, copy)) : std::nullopt;
+  }
   if (copy == 0) {
     return std::nullopt;
   }
@@ -82,7 +107,8 @@ std::vector<Part> parts_of(const Settings& settings) {
     parts.push_back({SurfaceKind::samples, UpAxis::none});
   }
   if (settings.up != UpAxis::none) {
-    parts.push_back({settings.prepare.surface, settings.up});
+    const UpAxis up = settings.taught_for == TaughtFor::views ? UpAxis::z : settings.up;
+    parts.push_back({settings.prepare.surface, up});
   }
   return parts;
 }
@@ -105,6 +131,11 @@ Preparation prepare_part(const Object& shape, const Settings& settings, const Pa
   result.params.bin_size = prepared_bin_size(shape, result.object, settings);
   result.params.validate();  // an absolute size may vanish beside a huge object
   return result;
+}
+
+// Whether the points of `next` are those of `part`, but for the axes.
+bool shares_points(const Part& part, const Part& next) {
+  return part.surface == next.surface && part.axes == UpAxis::none;
 }
 
 FeatureVector encoded(const Preparation& preparation, const Encoding& encoding, Stopwatch& watch, StageSeconds& spent) {
@@ -162,10 +193,16 @@ FeatureVector describe(const Object& object, const Settings& settings, int copy,
   const std::vector<Part> parts = parts_of(settings);
   const float factor = 1.0F / std::sqrt(static_cast<float>(parts.size()));
   FeatureVector whole;
-  for (const Part& part : parts) {
+  Preparation preparation;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const Part& part = parts[k];
     FeatureVector mean;
     for (int draw = 0; draw < settings.draws; ++draw) {
-      const Preparation preparation = prepare_part(shape, settings, part, seed_of(settings, copy, draw));
+      if (settings.draws == 1 && k > 0 && shares_points(parts[k - 1], part)) {
+        turn_axes(part.axes, preparation.object.spin_points);
+      } else {
+        preparation = prepare_part(shape, settings, part, seed_of(settings, copy, draw));
+      }
       spent.prepare += watch.lap();
       FeatureVector drawn = elsewhere ? elsewhere(preparation) : encoded(preparation, *encoding, watch, spent);
       spent.spin += watch.lap();  // elsewhere: with encoding, they cannot be told apart

@@ -33,11 +33,13 @@ struct Preparation {
 // Makes the feature vector of prepared points somewhere else: dense_object.h shares them out.
 using EncodePrepared = std::function<FeatureVector(const Preparation&)>;
 
-// The feature vector of an object, or of its training copy number `copy`, 1 to settings.training_views() - 1: the first
+// The feature vector of an object, or of its training copy number `copy`, 1 to settings.training_rows() - 1: the first
 // settings.copies are stretched, those after them are stretched and turned into clouds of settings.prepare.points
-// points, every other one exact and every other one with noise of 1 % of the diameter. On this thread unless
-// `elsewhere` says otherwise. Deterministic. Adds the time spent to `seconds` where one is given. Throws InputError
-// (without a file name) when the object has no extent.
+// points, every other one exact and every other one with noise of 1 % of the diameter. With TaughtFor::views a mesh is
+// view number `copy` of it (camera/views.h), 0 included, no two meshes being looked at from the same places; a cloud is
+// taken to be a view and to stand upright, z up. On this thread unless `elsewhere` says otherwise. Deterministic. Adds
+// the time spent to `seconds` where one is given. Throws InputError (without a file name) when the object has no
+// extent, or shows nothing to a camera.
 FeatureVector describe(const Object& object, const Settings& settings, int copy = 0, StageSeconds* seconds = nullptr,
                        const EncodePrepared& elsewhere = {});
 

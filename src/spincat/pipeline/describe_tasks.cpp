@@ -25,6 +25,7 @@ Described described_file(const std::filesystem::path& file, int views, const Des
   try {
     Stopwatch watch;
     const Object object = read_object(file);
+    result.kind = kind_of(object);
     result.seconds.read = watch.lap();
     for (int copy = 0; copy < views; ++copy) {
       result.features.push_back(describe_one(object, copy, result.seconds));
@@ -67,7 +68,7 @@ void describe_by_points(TaskFarm& farm, const DescribeJob& job,
 
 std::string pack(const Described& described) {
   Packer packer;
-  packer.add(std::string_view(described.problem));
+  packer.add(std::string_view(described.problem)).add(described.kind);
   pack_seconds(packer, described.seconds);
   for (const FeatureVector& features : described.features) {
     pack_features(packer, features);
@@ -79,6 +80,7 @@ Described unpack_described(std::string_view bytes) {
   Unpacker fields(bytes);
   Described described;
   described.problem = fields.get_text();
+  described.kind = fields.get<ObjectKind>();
   described.seconds = unpack_seconds(fields);
   while (!fields.empty()) {
     described.features.push_back(unpack_features(fields));

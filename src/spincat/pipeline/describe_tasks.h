@@ -13,6 +13,7 @@
 #include "spincat/parallel/task_farm.h"
 #include "spincat/pipeline/dense_object.h"
 #include "spincat/pipeline/describe.h"
+#include "spincat/pipeline/kinds.h"
 #include "spincat/pipeline/settings.h"
 
 namespace spincat {
@@ -21,6 +22,7 @@ namespace spincat {
 struct Described {
   std::vector<FeatureVector> features;  // the object itself and its copies; empty when it could not be read
   std::string problem;                  // why not
+  ObjectKind kind = ObjectKind::mesh;   // where it could be read
   StageSeconds seconds;
 };
 

@@ -151,6 +151,29 @@ void fill_rates(std::span<const Trial> trials, const EvaluateOptions& options, E
   }
 }
 
+// Rates by the number of views: the mean over splits; otherwise of everything together.
+std::vector<ViewsRates> rates_by_views(std::span<const Trial> trials, std::uint32_t views, bool splits) {
+  const std::vector<std::uint32_t> groups = view_counts(views);
+  std::vector<ViewsRates> rates;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    std::vector<Confusion> parts;
+    for (const Trial& trial : trials) {
+      if (splits || parts.empty()) {
+        parts.push_back(trial.by_views[g]);
+      } else {
+        add(trial.by_views[g], parts[0]);
+      }
+    }
+    ViewsRates of{groups[g], 0.0, 0.0};
+    for (const Confusion& part : parts) {
+      of.mean_class_rate += mean_class_rate(part) / static_cast<double>(parts.size());
+      of.overall_rate += overall_rate(part) / static_cast<double>(parts.size());
+    }
+    rates.push_back(of);
+  }
+  return rates;
+}
+
 ConfidenceMeasure measure_of(std::span<const Trial> trials) {
   ConfidenceMeasure measure;
   std::vector<double> right;
@@ -189,6 +212,21 @@ std::vector<DatasetObject> described_objects(const TestTable& tested) {
     }
   }
   return objects;
+}
+
+// Of meshes that are tested by their views nothing is to be said.
+std::string misfit_of(const EvaluationData& data, const Settings& settings) {
+  if (!data.tested || settings.taught_for == TaughtFor::views) {
+    return {};
+  }
+  for (const auto& [kind, count] : {std::pair(ObjectKind::mesh, data.tested->kinds.meshes),
+                                    std::pair(ObjectKind::cloud, data.tested->kinds.clouds)}) {
+    const std::string reason = misfit(kind, data.table.kinds, settings.taught_for);
+    if (count > 0 && !reason.empty()) {
+      return reason;
+    }
+  }
+  return {};
 }
 
 // What the objects are, before any of them is judged.
@@ -252,6 +290,7 @@ Evaluation judge_evaluation(const EvaluationData& data, const Settings& settings
   Stopwatch watch;
   const std::vector<Split> splits = splits_of(data, settings, options);
   Evaluation result = facts_of(data, options);
+  result.misfit = misfit_of(data, settings);
   result.splits = result.protocol == Protocol::splits ? options.splits : 1;
   if (result.protocol == Protocol::splits) {
     result.split_seeds = seeds_of(options, settings);
@@ -264,6 +303,7 @@ Evaluation judge_evaluation(const EvaluationData& data, const Settings& settings
   }
   result.tested = named_objects(data, splits, trials);
   fill_rates(trials, options, result);
+  result.views = rates_by_views(trials, data.table.tested_rows, result.protocol == Protocol::splits);
   if (options.measure_confidence || !options.strangers.empty()) {
     result.confidence = measure_of(trials);
   }

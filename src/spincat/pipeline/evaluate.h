@@ -62,7 +62,14 @@ struct ConfidenceMeasure {
   double right_or_wrong = 0.5;    // tested objects named right against those named wrong, of all splits together
   double known_or_unknown = 0.5;  // tested objects against strangers, the mean over the splits
   double mean_confidence = 0.0;   // over the tested objects of all splits; close to their overall rate when calibrated
-  std::uint32_t strangers = 0;    // how many could be read
+  std::uint32_t strangers = 0;    // how many could be read, each counted by its views
+};
+
+// Rates by the number of views of an object over which votes are summed.
+struct ViewsRates {
+  std::uint32_t views = 1;
+  double mean_class_rate = 0.0;  // over the splits the mean
+  double overall_rate = 0.0;
 };
 
 // A tested object and what it was named.
@@ -89,10 +96,12 @@ struct Evaluation {
   Rate overall_rate;     // right votes over all votes
   std::vector<Rate> category_rates;  // n: over the splits that tested the category
   std::vector<SeedRates> seeds;      // with Protocol::splits
+  std::vector<ViewsRates> views;     // with TaughtFor::views: 1, 2, 4, ... and all views; the rates above are of all
   Confusion confusion;               // added up over the splits
   std::vector<TestedObject> tested;  // all that could be, in the order of the data set: confusion[i][j] is how often
                                      // objects of category i were named j
   std::optional<ConfidenceMeasure> confidence;
+  std::string misfit;         // why the judges should not be trusted with the tested objects (kinds.h); mostly empty
   StageSeconds seconds;       // added up over threads; judge: teaching and voting
   double wall_seconds = 0.0;  // of everything
 };

@@ -32,6 +32,13 @@ TestTable described(std::span<const DatasetObject> objects, const EvaluationData
   return tested;
 }
 
+// Views are made of the objects as they are.
+void check_form(const Settings& settings, const EvaluateOptions& options) {
+  if (settings.taught_for == TaughtFor::views && options.test.form != TestForm::as_is) {
+    throw InputError("judges taught by views are tested on views: no other form of the tested objects is possible");
+  }
+}
+
 // What both kinds have in common: the objects to learn from, and the strangers.
 EvaluationData describe_known(const Dataset& dataset, const Settings& settings, const EvaluateOptions& options,
                               const Progress& progress) {
@@ -62,6 +69,7 @@ void EvaluateOptions::validate() const {
 EvaluationData describe_for_evaluation(const Dataset& dataset, const Settings& settings, const EvaluateOptions& options,
                                        const Progress& progress) {
   options.validate();
+  check_form(settings, options);
   Stopwatch watch;
   std::vector<LeftOutCategory> left_out;
   const Dataset part = with_enough_objects(dataset, options.fewest_objects, left_out);
@@ -77,6 +85,7 @@ EvaluationData describe_for_evaluation(const Dataset& dataset, const Settings& s
 EvaluationData describe_across(const Dataset& train, const Dataset& test, const Settings& settings,
                                const EvaluateOptions& options, const Progress& progress) {
   options.validate();
+  check_form(settings, options);
   Stopwatch watch;
   std::vector<LeftOutCategory> left_out;
   const auto [learned, tested] =

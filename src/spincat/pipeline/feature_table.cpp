@@ -65,7 +65,8 @@ FeatureTable collect(const Dataset& dataset, std::vector<Described> described, c
   table.skipped = dataset.skipped;
   table.words = static_cast<std::uint32_t>(settings.words);
   table.seed = settings.seed;
-  table.rows_per_object = static_cast<std::uint32_t>(settings.training_views());
+  table.rows_per_object = static_cast<std::uint32_t>(settings.training_rows());
+  table.tested_rows = static_cast<std::uint32_t>(settings.tested_rows());
   table.parts = static_cast<std::uint32_t>(settings.parts());
   Eigen::Index length = 0;
   for (std::size_t i = 0; i < described.size(); ++i) {
@@ -74,6 +75,7 @@ FeatureTable collect(const Dataset& dataset, std::vector<Described> described, c
       table.skipped.push_back({dataset.objects[i].file, described[i].problem});
     } else {
       table.objects.push_back(dataset.objects[i]);
+      table.kinds.add(described[i].kind);
       table.encoding = described[i].features[0].encoding;
       table.local_size = described[i].features[0].local_size;
       table.blocks = described[i].features[0].blocks;
@@ -131,8 +133,8 @@ std::vector<std::uint32_t> FeatureTable::rows_of(std::span<const std::uint32_t> 
   return rows;
 }
 
-std::span<const float> FeatureTable::features_of(std::uint32_t object) const {
-  const auto row = static_cast<Eigen::Index>(object) * rows_per_object;
+std::span<const float> FeatureTable::features_of(std::uint32_t object, std::uint32_t view) const {
+  const auto row = static_cast<Eigen::Index>(object) * rows_per_object + view;
   return {features.row(row).data(), static_cast<std::size_t>(features.cols())};
 }
 
@@ -145,7 +147,7 @@ FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, 
   std::vector<Described> described(dataset.objects.size());
   const DescribeJob job{dataset.objects.size(),
                         [&](std::size_t i) -> const std::filesystem::path& { return dataset.objects[i].file; },
-                        settings, settings.training_views(), division};
+                        settings, settings.training_rows(), division};
   const auto keep = [&](std::size_t i, Described one) {
     if (strict && one.features.empty()) {
       throw InputError(dataset.objects[i].file.string(), one.problem);

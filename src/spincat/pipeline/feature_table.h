@@ -10,6 +10,7 @@
 #include "spincat/judge/gram.h"
 #include "spincat/pipeline/describe.h"
 #include "spincat/pipeline/division.h"
+#include "spincat/pipeline/kinds.h"
 #include "spincat/pipeline/progress.h"
 #include "spincat/pipeline/settings.h"
 
@@ -18,7 +19,7 @@ namespace spincat {
 class TaskFarm;
 
 // Objects that could be read, and their features: row i * rows_per_object is object i itself, the rows after it are its
-// stretched training copies.
+// training copies; or all rows are views of it.
 struct FeatureTable {
   std::vector<DatasetObject> objects;   // N
   std::vector<std::string> categories;  // n, all of the data set
@@ -29,8 +30,10 @@ struct FeatureTable {
   std::uint32_t words = 0;              // of the codebook that is learned for them
   std::uint64_t seed = 1;               // of that learning
   std::uint32_t rows_per_object = 1;
-  std::uint32_t parts = 1;  // of a row, all of one length
+  std::uint32_t tested_rows = 1;  // of these, the first ones: what may be tested, the object itself or its views
+  std::uint32_t parts = 1;        // of a row, all of one length
   std::string encoding;
+  KindCounts kinds;      // of the objects
   StageSeconds seconds;  // added up over threads
 
   std::vector<std::uint32_t> object_labels() const;  // N
@@ -38,7 +41,8 @@ struct FeatureTable {
   std::vector<std::uint32_t> row_labels() const;     // one for each row
   // All rows of the given objects: what judges are taught on. A copy never leaves its object.
   std::vector<std::uint32_t> rows_of(std::span<const std::uint32_t> objects) const;
-  std::span<const float> features_of(std::uint32_t object) const;  // of the object itself
+  // Of the object itself, or of its view number `view`.
+  std::span<const float> features_of(std::uint32_t object, std::uint32_t view = 0) const;
 };
 
 // Reads and describes every object of the data set once, with its copies, on all threads and ranks of the farm. The

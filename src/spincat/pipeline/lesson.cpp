@@ -86,13 +86,17 @@ FeatureMatrix Lesson::margins(std::span<const Judge> judges, std::span<const std
   if (has_gram_) {
     std::vector<std::uint32_t> rows;
     for (const std::uint32_t object : objects) {
-      rows.push_back(object * table_.rows_per_object);
+      for (std::uint32_t view = 0; view < table_.tested_rows; ++view) {
+        rows.push_back(object * table_.rows_per_object + view);
+      }
     }
     return training_->margins(judges, rows);
   }
   std::vector<std::span<const float>> features;
   for (const std::uint32_t object : objects) {
-    features.push_back(table_.features_of(object));
+    for (std::uint32_t view = 0; view < table_.tested_rows; ++view) {
+      features.push_back(table_.features_of(object, view));
+    }
   }
   return list(judges).margins(features);
 }

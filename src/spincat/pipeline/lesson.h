@@ -34,7 +34,8 @@ class Lesson {
   // All judges, put together.
   JudgeList list(std::span<const Judge> judges, int threads = 1) const;
 
-  // What some judges say of other objects of the table: a row for each object.
+  // What some judges say of other objects of the table: a row for each object, or for each of its
+  // views.
   FeatureMatrix margins(std::span<const Judge> judges, std::span<const std::uint32_t> objects) const;
 
  private:

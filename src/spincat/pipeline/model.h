@@ -10,6 +10,7 @@
 #include "spincat/judge/calibration.h"
 #include "spincat/judge/familiarity.h"
 #include "spincat/judge/judge_list.h"
+#include "spincat/pipeline/kinds.h"
 #include "spincat/pipeline/settings.h"
 
 namespace spincat {
@@ -25,6 +26,7 @@ struct Model {
   Familiarity familiarity;
   std::string dataset;                       // what it was trained on, as the user named it
   std::vector<std::uint32_t> object_counts;  // n: training objects of each category, copies not counted
+  KindCounts kinds;                          // of the training objects
   std::string made_by;                       // "spincat 0.1.0"
 
   std::size_t feature_length() const { return judges.feature_length(); }

@@ -261,6 +261,8 @@ Model model_from_json(const Json& json) {
   model.dataset = value<std::string>(json, "dataset");
   model.made_by = value<std::string>(json, "made_by");
   model.object_counts = counts(json, "object_counts", n);
+  const std::vector<std::uint32_t> kinds = counts(json, "kinds", 2);
+  model.kinds = {kinds[0], kinds[1]};
   return model;
 }
 
@@ -277,6 +279,7 @@ void write_model(const std::filesystem::path& file, const Model& model) {
                      {"familiarity", familiarity_to_json(model.familiarity)},
                      {"dataset", model.dataset},
                      {"object_counts", model.object_counts},
+                     {"kinds", {model.kinds.meshes, model.kinds.clouds}},
                      {"made_by", model.made_by}};
   write_file_atomically(file, pack_record("model", kModelVersion, json));
 }

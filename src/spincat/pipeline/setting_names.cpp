@@ -20,7 +20,8 @@ constexpr ChoiceName<BinSizeUnit> kUnits[] = {
     {BinSizeUnit::absolute, "absolute"}, {BinSizeUnit::resolution, "resolution"}, {BinSizeUnit::relative, "relative"}};
 constexpr ChoiceName<KernelKind> kKernels[] = {{KernelKind::linear, "linear"}, {KernelKind::rbf, "rbf"}};
 constexpr ChoiceName<UpAxis> kUpAxes[] = {{UpAxis::none, "none"}, {UpAxis::x, "x"}, {UpAxis::y, "y"}, {UpAxis::z, "z"}};
-constexpr ChoiceName<TaughtFor> kTaughtFor[] = {{TaughtFor::meshes, "meshes"}, {TaughtFor::any, "any"}};
+constexpr ChoiceName<TaughtFor> kTaughtFor[] = {
+    {TaughtFor::meshes, "meshes"}, {TaughtFor::any, "any"}, {TaughtFor::views, "views"}};
 
 }  // namespace
 

@@ -57,6 +57,12 @@ void Settings::validate() const {
   if (copies < 0 || copies > 100) {
     throw InputError(fmt::format("number of copies {} is out of range (0 to 100)", copies));
   }
+  if (views < 1 || views > 1'000) {
+    throw InputError(fmt::format("number of views {} is out of range (1 to 1000)", views));
+  }
+  if (taught_for == TaughtFor::views && up == UpAxis::none) {
+    throw InputError("views of models need to know which axis points up (x, y or z)");
+  }
   if (!(stretch >= 0.0 && stretch <= 2.0)) {
     throw InputError(fmt::format("stretch {} is out of range (0 to 2)", stretch));
   }
@@ -75,6 +81,19 @@ Settings preset(std::string_view name) {
 const std::vector<std::string>& preset_names() {
   static const std::vector<std::string> names = {"default", "paper"};
   return names;
+}
+
+Settings taught_by_views(Settings settings, int views) {
+  settings.taught_for = TaughtFor::views;
+  settings.views = views;
+  settings.up = UpAxis::y;
+  settings.plain_samples = false;  // nothing of a view is hidden
+  settings.copies = 0;
+  // More points, images and bins bring nothing here, and cost time with each frame (docs/camera.md).
+  settings.spin.image_width = 24;
+  settings.prepare.points = 1024;
+  settings.prepare.spin_points = 128;
+  return settings;
 }
 
 }  // namespace spincat

@@ -73,6 +73,7 @@ nlohmann::ordered_json settings_to_json(const Settings& s) {
           {"class_weights", s.judge.class_weights},
           {"copies", s.copies},
           {"taught_for", name_of(s.taught_for)},
+          {"views", s.views},
           {"stretch", s.stretch},
           {"seed", s.seed}};
 }
@@ -102,6 +103,7 @@ Settings settings_from_json(const Json& json) {
   s.judge.class_weights = field<bool>(json, "class_weights");
   s.copies = whole<int>(json, "copies");
   s.taught_for = choice<TaughtFor>(json, "taught_for");
+  s.views = whole<int>(json, "views");
   s.stretch = field<double>(json, "stretch");
   s.seed = whole<std::uint64_t>(json, "seed");
   s.validate();

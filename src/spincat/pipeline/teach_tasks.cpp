@@ -96,15 +96,14 @@ std::string do_judges(Lessons& lessons, std::string_view bytes) {
 }  // namespace
 
 std::string pack_table(const FeatureTable& table) {
-  const auto& [objects, categories, skipped, features, blocks, local_size, words, seed, rows_per_object, parts,
-               encoding,
-               seconds] = table;                            // does not compile when a member is forgotten
-  static_cast<void>(std::tie(skipped, encoding, seconds));  // not for other ranks
+  const auto& [objects, categories, skipped, features, blocks, local_size, words, seed, rows_per_object, tested_rows,
+               parts, encoding, kinds, seconds] = table;           // does not compile when a member is forgotten
+  static_cast<void>(std::tie(skipped, encoding, kinds, seconds));  // not for other ranks
   Packer packer;
   packer.add(static_cast<std::uint32_t>(categories.size()));
   const std::vector<std::uint32_t> labels = table.object_labels();
   packer.add(std::span<const std::uint32_t>(labels)).add(std::span<const std::uint32_t>(blocks));
-  packer.add(local_size).add(words).add(seed).add(rows_per_object).add(parts);
+  packer.add(local_size).add(words).add(seed).add(rows_per_object).add(tested_rows).add(parts);
   pack_matrix(packer, features);
   return packer.take();
 }
@@ -120,6 +119,7 @@ FeatureTable unpack_table(Unpacker& fields) {
   table.words = fields.get<std::uint32_t>();
   table.seed = fields.get<std::uint64_t>();
   table.rows_per_object = fields.get<std::uint32_t>();
+  table.tested_rows = fields.get<std::uint32_t>();
   table.parts = fields.get<std::uint32_t>();
   table.features = unpack_matrix<FeatureMatrix>(fields);
   return table;

@@ -58,7 +58,7 @@ struct JudgesTask {
 std::vector<JudgesTask> judges_tasks(const FeatureTable& table, KernelKind kind, std::span<const LessonPlan> lessons);
 std::string pack(const JudgesTask& task);
 std::vector<Judge> unpack_judges(std::string_view result);
-// Margins of the judged objects: a row for each object, a column for each judge of the task.
+// Margins of the judged objects: a row for each of `objects` (or of their views), a column for each judge of the task.
 FeatureMatrix unpack_margins(std::string_view result, std::size_t objects);
 std::string pack_lessons(const JudgeSettings& settings, std::span<const LessonPlan> lessons);
 // The lessons' common parts are made when their first task comes.

@@ -73,9 +73,11 @@ void count_fold(const FeatureTable& table, const LessonPlan& lesson, const Featu
                 std::vector<JudgedObject>& votes, std::vector<JudgedObject>& strangers) {
   const auto categories = static_cast<std::uint32_t>(table.categories.size());
   const Familiarity familiarity = familiarity_of(table, lesson.taught);
-  for (std::size_t i = 0; i < lesson.judged.size(); ++i) {
-    const std::span<const float> features = table.features_of(lesson.judged[i]);
-    const std::uint32_t truth = table.objects[lesson.judged[i]].category;
+  for (std::size_t i = 0; i < lesson.judged.size() * table.tested_rows; ++i) {
+    const std::uint32_t object = lesson.judged[i / table.tested_rows];
+    const std::span<const float> features =
+        table.features_of(object, static_cast<std::uint32_t>(i % table.tested_rows));
+    const std::uint32_t truth = table.objects[object].category;
     const auto row = static_cast<Eigen::Index>(i);
     const Ballot ballot = count_votes(categories, {margins.row(row).data(), static_cast<std::size_t>(margins.cols())});
     votes.push_back({ballot.weakest_margin, ballot.winner == truth, familiarity.of(features, ballot.winner)});
@@ -172,7 +174,7 @@ Calibration Teacher::calibrate(std::span<const std::uint32_t> objects, std::uint
   job.deliver = [&](std::size_t i, const std::string& result) {
     const auto& [number, first, last] = tasks[i];
     const LessonPlan& lesson = lessons[number];
-    const FeatureMatrix part = unpack_margins(result, lesson.judged.size());
+    const FeatureMatrix part = unpack_margins(result, lesson.judged.size() * table_.tested_rows);
     margins.conservativeResize(part.rows(), last);
     margins.rightCols(last - first) = part;
     if (i + 1 == tasks.size() || tasks[i + 1].lesson != number) {
@@ -189,14 +191,19 @@ Familiarity familiarity_of(const FeatureTable& table, std::span<const std::uint3
     return {};  // local features are compared by the words of a codebook alone
   }
   const Eigen::Index length = table.features.cols() / table.parts;
-  FeatureMatrix features(static_cast<Eigen::Index>(objects.size()), length);
+  constexpr std::uint32_t kMostViews = 4;  // of an object: more cost each vote time and tell hardly more
+  const std::uint32_t views = std::min(table.tested_rows, kMostViews);
+  FeatureMatrix features(static_cast<Eigen::Index>(objects.size() * views), length);
   std::vector<std::uint32_t> labels;
   for (const std::uint32_t object : objects) {
-    features.row(static_cast<Eigen::Index>(labels.size())) =
-        table.features.row(static_cast<Eigen::Index>(object) * table.rows_per_object).head(length);
-    labels.push_back(table.objects[object].category);
+    for (std::uint32_t view = 0; view < views; ++view) {
+      features.row(static_cast<Eigen::Index>(labels.size())) =
+          table.features.row(static_cast<Eigen::Index>(object) * table.rows_per_object + view).head(length);
+      labels.push_back(table.objects[object].category);
+    }
   }
-  return make_familiarity(std::move(features), std::move(labels), static_cast<std::uint32_t>(table.categories.size()));
+  return make_familiarity(std::move(features), std::move(labels), static_cast<std::uint32_t>(table.categories.size()),
+                          views);
 }
 
 }  // namespace spincat

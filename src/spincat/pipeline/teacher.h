@@ -45,9 +45,9 @@ class Teacher {
   // Precondition: every category has an object among them.
   JudgeList teach(std::span<const std::uint32_t> objects, const Progress& progress = {});
 
-  // Calibrates the confidence by five-fold cross-validation on the given objects alone: each is judged by judges that
-  // were taught on the others, and once more as a stranger, without the judges that know its category. Categories with
-  // a single object are always taught on and never judged.
+  // Calibrates the confidence by five-fold cross-validation on the given objects alone: each (by all of its views,
+  // where it is shown by views) is judged by judges that were taught on the others, and once more as a stranger,
+  // without the judges that know its category. Categories with a single object are always taught on and never judged.
   Calibration calibrate(std::span<const std::uint32_t> objects, std::uint64_t seed, const Progress& progress = {});
 
  private:
@@ -62,8 +62,8 @@ class Teacher {
 };
 
 // The given objects as familiarity sees them: the first part of their features (what is seen from outside), without
-// copies: strangers stand out in it more than in all parts together (docs/accuracy.md). Empty where the table has none
-// to compare objects by.
+// copies (of views the first four): strangers stand out in it more than in all parts together (docs/accuracy.md). Empty
+// where the table has none to compare objects by.
 Familiarity familiarity_of(const FeatureTable& table, std::span<const std::uint32_t> objects);
 
 }  // namespace spincat

@@ -107,8 +107,9 @@ Object in_test_form(const Object& object, const TestOptions& options, std::uint6
   return object;
 }
 
-std::span<const float> TestTable::features_of(std::uint32_t object) const {
-  return {features.row(object).data(), static_cast<std::size_t>(features.cols())};
+std::span<const float> TestTable::features_of(std::uint32_t object, std::uint32_t view) const {
+  const auto row = static_cast<Eigen::Index>(object) * rows_per_object + view;
+  return {features.row(row).data(), static_cast<std::size_t>(features.cols())};
 }
 
 namespace {
@@ -124,9 +125,13 @@ Described describe_task(const TestedTask& task, const Settings& settings, const 
   try {
     Stopwatch watch;
     const Object object = in_test_form(read_object(std::filesystem::path(task.file)), options, task.seed);
+    described.kind = kind_of(object);
     described.seconds.read = watch.lap();
-    described.features.push_back(describe(object, settings, 0, &described.seconds));
+    for (int view = 0; view < settings.tested_rows(); ++view) {
+      described.features.push_back(describe(object, settings, view, &described.seconds));
+    }
   } catch (const InputError& error) {
+    described.features.clear();
     described.problem = error.problem();
   }
   return described;
@@ -156,7 +161,9 @@ TestTable describe_tested(std::span<const DatasetObject> objects, std::size_t fe
                           const TestOptions& options, TaskFarm& farm, const Progress& progress) {
   TestTable table;
   table.objects.assign(objects.begin(), objects.end());
-  table.features.setZero(static_cast<Eigen::Index>(objects.size()), static_cast<Eigen::Index>(feature_length));
+  table.rows_per_object = static_cast<std::uint32_t>(settings.tested_rows());
+  table.features.setZero(static_cast<Eigen::Index>(objects.size() * table.rows_per_object),
+                         static_cast<Eigen::Index>(feature_length));
   table.problems.resize(objects.size());
   const std::uint64_t stream = derive_seed(settings.seed, kTestFormPurpose);
   Job job;
@@ -175,11 +182,15 @@ TestTable describe_tested(std::span<const DatasetObject> objects, std::size_t fe
     if (described.features.empty()) {
       return;
     }
-    const std::vector<float>& found = described.features[0].values;
-    if (found.size() == feature_length) {
-      std::ranges::copy(found, table.features.row(static_cast<Eigen::Index>(i)).data());
-    } else {
-      table.problems[i] = fmt::format("gives {} features where the judges expect {}", found.size(), feature_length);
+    table.kinds.add(described.kind);
+    auto row = static_cast<Eigen::Index>(i * table.rows_per_object);
+    for (const FeatureVector& found : described.features) {
+      if (found.values.size() != feature_length) {
+        table.problems[i] =
+            fmt::format("gives {} features where the judges expect {}", found.values.size(), feature_length);
+        return;
+      }
+      std::ranges::copy(found.values, table.features.row(row++).data());
     }
   };
   farm.run(job, [&](std::size_t done) {

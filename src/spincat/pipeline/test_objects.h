@@ -12,6 +12,7 @@
 #include "spincat/judge/gram.h"
 #include "spincat/parallel/task.h"
 #include "spincat/pipeline/describe.h"
+#include "spincat/pipeline/kinds.h"
 #include "spincat/pipeline/progress.h"
 #include "spincat/pipeline/settings.h"
 
@@ -42,16 +43,19 @@ Object in_test_form(const Object& object, const TestOptions& options, std::uint6
 
 struct TestTable {
   std::vector<DatasetObject> objects;  // N, as they were handed in
-  FeatureMatrix features;              // N x D; the rows of objects with a problem are zero
+  std::uint32_t rows_per_object = 1;   // one, or all views of it
+  FeatureMatrix features;              // N rows_per_object x D; the rows of objects with a problem are zero
   std::vector<std::string> problems;   // N: why an object could not be described; empty where it could
+  KindCounts kinds;                    // of those that could be read, in the form in which they are tested
   StageSeconds seconds;                // added up over threads
 
-  std::span<const float> features_of(std::uint32_t object) const;
+  std::span<const float> features_of(std::uint32_t object, std::uint32_t view = 0) const;
 };
 
-// Reads and describes objects, without copies; those that cannot be read or do not give `feature_length` numbers get
-// their reason instead. Each object is altered by a seed of its own, made from settings.seed and its place. The result
-// does not depend on the number of threads and ranks of the farm.
+// Reads and describes objects, without copies, or as many views of them as settings.tested_rows() says; those that
+// cannot be read or do not give `feature_length` numbers get their reason instead. Each object is altered by a seed of
+// its own, made from settings.seed and its place. The result does not depend on the number of threads and ranks of the
+// farm.
 TestTable describe_tested(std::span<const DatasetObject> objects, std::size_t feature_length, const Settings& settings,
                           const TestOptions& options, TaskFarm& farm, const Progress& progress);
 

@@ -31,6 +31,7 @@ TrainResult train(const Dataset& dataset, const Settings& settings, const TrainO
   // Keep what classifying needs to repeat all of this.
   model.settings = settings;
   model.categories = table.categories;
+  model.kinds = table.kinds;
   model.dataset = dataset.name;
   model.made_by = "spincat " SPINCAT_VERSION;
   model.object_counts = table.object_counts();

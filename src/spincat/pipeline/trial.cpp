@@ -10,7 +10,7 @@ namespace {
 
 void pack_tested(Packer& packer, const TestTable& tested) {
   packer.add(static_cast<std::uint64_t>(tested.objects.size()));
-  packer.add(static_cast<std::uint64_t>(tested.features.cols()));
+  packer.add(static_cast<std::uint64_t>(tested.features.cols())).add(tested.rows_per_object);
   packer.add(std::span<const float>(tested.features.data(), static_cast<std::size_t>(tested.features.size())));
   for (std::size_t i = 0; i < tested.objects.size(); ++i) {
     packer.add(tested.objects[i].category).add(std::string_view(tested.problems[i]));
@@ -21,9 +21,10 @@ TestTable unpack_tested(Unpacker& fields) {
   TestTable tested;
   const auto objects = fields.get<std::uint64_t>();
   const auto columns = fields.get<std::uint64_t>();
+  tested.rows_per_object = fields.get<std::uint32_t>();
   const std::vector<float> features = fields.get_values<float>();
-  tested.features = Eigen::Map<const FeatureMatrix>(features.data(), static_cast<Eigen::Index>(objects),
-                                                    static_cast<Eigen::Index>(columns));
+  tested.features = Eigen::Map<const FeatureMatrix>(
+      features.data(), static_cast<Eigen::Index>(objects * tested.rows_per_object), static_cast<Eigen::Index>(columns));
   for (std::uint64_t i = 0; i < objects; ++i) {
     tested.objects.push_back({{}, fields.get<std::uint32_t>(), {}});
     tested.problems.emplace_back(fields.get_text());
@@ -31,11 +32,27 @@ TestTable unpack_tested(Unpacker& fields) {
   return tested;
 }
 
-std::string pack(const Trial& trial) {
-  const auto& [confusion, named, right, wrong, strangers] = trial;
-  Packer packer;
+void pack_confusion(Packer& packer, const Confusion& confusion) {
   for (const std::vector<std::uint32_t>& row : confusion) {
     packer.add(std::span<const std::uint32_t>(row));
+  }
+}
+
+Confusion unpack_confusion(Unpacker& fields, std::size_t categories) {
+  Confusion confusion;
+  for (std::size_t i = 0; i < categories; ++i) {
+    confusion.push_back(fields.get_values<std::uint32_t>());
+  }
+  return confusion;
+}
+
+std::string pack(const Trial& trial) {
+  const auto& [confusion, by_views, named, right, wrong, strangers] = trial;
+  Packer packer;
+  pack_confusion(packer, confusion);
+  packer.add(static_cast<std::uint64_t>(by_views.size()));
+  for (const Confusion& of : by_views) {
+    pack_confusion(packer, of);
   }
   packer.add(std::span<const std::uint32_t>(named));
   packer.add(std::span<const double>(right)).add(std::span<const double>(wrong));
@@ -43,7 +60,38 @@ std::string pack(const Trial& trial) {
   return packer.take();
 }
 
+// What is tested: the objects of the table, or those of another one.
+struct Tested {
+  const EvaluationData& data;
+
+  std::uint32_t views() const { return data.tested ? data.tested->rows_per_object : data.table.tested_rows; }
+  std::uint32_t category(std::uint32_t object) const {
+    return data.tested ? data.tested->objects[object].category : data.table.objects[object].category;
+  }
+  std::span<const float> features(std::uint32_t object, std::uint32_t view) const {
+    return data.tested ? data.tested->features_of(object, view) : data.table.features_of(object, view);
+  }
+};
+
+// Votes summed over each run of so many views.
+void count_groups(std::span<const Ballot> ballots, std::uint32_t views, std::uint32_t truth, Confusion& confusion) {
+  for (std::size_t first = 0; first + views <= ballots.size(); first += views) {
+    ++confusion[truth][sum_votes(ballots.subspan(first, views)).winner];
+  }
+}
+
 }  // namespace
+
+std::vector<std::uint32_t> view_counts(std::uint32_t views) {
+  std::vector<std::uint32_t> counts;
+  for (std::uint32_t count = 1; count < views; count *= 2) {
+    counts.push_back(count);
+  }
+  if (!counts.empty()) {
+    counts.push_back(views);
+  }
+  return counts;
+}
 
 Trial run_trial(const EvaluationData& data, Teacher& teacher, const Split& split, const Settings& settings,
                 bool measure_confidence) {
@@ -59,22 +107,33 @@ Trial run_trial(const EvaluationData& data, Teacher& teacher, const Split& split
   const auto confidence = [&](const Ballot& ballot, std::span<const float> features) {
     return calibration.confidence(ballot, familiarity.of(features, ballot.winner));
   };
+  const Tested tested{data};
+  const std::vector<std::uint32_t> groups = view_counts(tested.views());
   Trial trial;
   trial.confusion.assign(n, std::vector<std::uint32_t>(n, 0));
+  trial.by_views.assign(groups.size(), trial.confusion);
   for (const std::uint32_t object : split.test) {
-    const std::span<const float> features = data.tested ? data.tested->features_of(object) : table.features_of(object);
-    const Ballot ballot = judges.vote(features);
-    const std::uint32_t truth = data.tested ? data.tested->objects[object].category : table.objects[object].category;
-    ++trial.confusion[truth][ballot.winner];
-    trial.named.push_back(ballot.winner);
-    if (measure_confidence) {
-      (ballot.winner == truth ? trial.right : trial.wrong).push_back(confidence(ballot, features));
+    const std::uint32_t truth = tested.category(object);
+    std::vector<Ballot> ballots;
+    for (std::uint32_t view = 0; view < tested.views(); ++view) {
+      const std::span<const float> features = tested.features(object, view);
+      ballots.push_back(judges.vote(features));
+      if (measure_confidence) {
+        (ballots.back().winner == truth ? trial.right : trial.wrong).push_back(confidence(ballots.back(), features));
+      }
+    }
+    trial.named.push_back(sum_votes(ballots).winner);
+    ++trial.confusion[truth][trial.named.back()];
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      count_groups(ballots, groups[g], truth, trial.by_views[g]);
     }
   }
   for (std::uint32_t object = 0; measure_confidence && object < data.strangers.objects.size(); ++object) {
-    if (data.strangers.problems[object].empty()) {
-      const std::span<const float> features = data.strangers.features_of(object);
-      trial.strangers.push_back(confidence(judges.vote(features), features));
+    for (std::uint32_t view = 0; view < data.strangers.rows_per_object; ++view) {
+      if (data.strangers.problems[object].empty()) {
+        const std::span<const float> features = data.strangers.features_of(object, view);
+        trial.strangers.push_back(confidence(judges.vote(features), features));
+      }
     }
   }
   return trial;
@@ -88,8 +147,10 @@ std::string pack(const Split& split) {
 Trial unpack_trial(std::string_view result, std::size_t categories) {
   Unpacker fields(result);
   Trial trial;
-  for (std::size_t i = 0; i < categories; ++i) {
-    trial.confusion.push_back(fields.get_values<std::uint32_t>());
+  trial.confusion = unpack_confusion(fields, categories);
+  const auto by_views = fields.get<std::uint64_t>();
+  for (std::uint64_t i = 0; i < by_views; ++i) {
+    trial.by_views.push_back(unpack_confusion(fields, categories));
   }
   trial.named = fields.get_values<std::uint32_t>();
   trial.right = fields.get_values<double>();

@@ -18,6 +18,7 @@ namespace spincat {
 // What came of one trial.
 struct Trial {
   Confusion confusion;
+  std::vector<Confusion> by_views;   // for each of view_counts(): votes summed over so many views of an object
   std::vector<std::uint32_t> named;  // for each of split.test: the category it was given
   // The confidences, where they are measured: in the tested objects by whether they were named right, and in strangers.
   std::vector<double> right;
@@ -25,8 +26,13 @@ struct Trial {
   std::vector<double> strangers;
 };
 
+// Over how many views votes are summed, of so many that there are of an object: 1, 2, 4, ..., and all. Nothing where
+// objects are tested themselves.
+std::vector<std::uint32_t> view_counts(std::uint32_t views);
+
 // Teaches the judges on the objects `split.train` of the table and lets them vote on the tested objects `split.test`.
-// `teacher` teaches on data.table. Deterministic.
+// The votes on all views of an object are summed; confidences are of single views. `teacher` teaches on data.table.
+// Deterministic.
 Trial run_trial(const EvaluationData& data, Teacher& teacher, const Split& split, const Settings& settings,
                 bool measure_confidence);
 

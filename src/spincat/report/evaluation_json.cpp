@@ -127,6 +127,10 @@ std::string evaluation_json(const Evaluation& e, const Settings& settings, const
                {"settings", settings_to_json(settings)},
                {"left_out", left_out(e.left_out)},
                {"skipped", skipped_objects(e.skipped)}};
+  for (const ViewsRates& of : e.views) {
+    json["views"].push_back(
+        {{"views", of.views}, {"mean_class_rate", of.mean_class_rate}, {"overall_rate", of.overall_rate}});
+  }
   if (e.confidence) {
     json["confidence"] = confidence(*e.confidence);
   }

@@ -155,6 +155,20 @@ std::string seeds_text(const Evaluation& e) {
                      fmt::join(rates, "  "), e.splits);
 }
 
+// What more views of an object bring.
+std::string views_text(const Evaluation& e) {
+  if (e.views.empty()) {
+    return {};
+  }
+  TextTable table({Align::right, Align::right, Align::right});
+  table.add({"views summed", "mean-class rate", "overall rate"});
+  for (const ViewsRates& of : e.views) {
+    table.add({fmt::format("{}", of.views), fmt::format("{:.3f}", of.mean_class_rate),
+               fmt::format("{:.3f}", of.overall_rate)});
+  }
+  return table.str() + "\n";
+}
+
 std::string confidence_text(const Evaluation& e) {
   if (!e.confidence) {
     return {};
@@ -177,12 +191,12 @@ std::string evaluation_text(const Evaluation& e, std::size_t width, bool colours
                                        protocol_text(e), human_seconds(e.wall_seconds));
   const std::size_t lines = std::max<std::size_t>(width, 40);  // of prose
   return fmt::format(
-      "{}\n"
+      "{}\n{}"
       "mean-class rate  {}\n"
       "overall rate     {}\n"
       "{}{}"
       "{}\n",
-      matrix_or_lists(e, width, colours), rate_text(e, e.mean_class_rate), rate_text(e, e.overall_rate),
+      matrix_or_lists(e, width, colours), views_text(e), rate_text(e, e.mean_class_rate), rate_text(e, e.overall_rate),
       wrapped(seeds_text(e), lines, kIndent), wrapped(confidence_text(e), lines, kIndent), wrapped(last, lines));
 }
 

@@ -19,5 +19,6 @@ Command add_evaluate(CLI::App& parent);
 Command add_sweep(CLI::App& parent);
 Command add_spin(CLI::App& parent);
 Command add_info(CLI::App& parent);
+Command add_camera(CLI::App& parent);
 
 }  // namespace spincat::app

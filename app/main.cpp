@@ -84,8 +84,9 @@ int run(int argc, char** argv, TaskFarm& farm) {
   cli.set_version_flag("--version", "spincat " SPINCAT_VERSION);
   cli.require_subcommand(1);
   const std::vector<std::pair<const char*, Command>> commands = {
-      {"train", add_train(cli)}, {"classify", add_classify(cli)}, {"evaluate", add_evaluate(cli)},
-      {"sweep", add_sweep(cli)}, {"spin", add_spin(cli)},         {"info", add_info(cli)}};
+      {"train", add_train(cli)},  {"classify", add_classify(cli)}, {"evaluate", add_evaluate(cli)},
+      {"sweep", add_sweep(cli)},  {"spin", add_spin(cli)},         {"info", add_info(cli)},
+      {"camera", add_camera(cli)}};
   const auto is_called = [&](const auto& command) { return std::string_view(argv[1]) == command.first; };
   if (argc > 1 && argv[1][0] != '-' && std::ranges::none_of(commands, is_called)) {
     throw InputError(fmt::format("there is no command '{}' (spincat --help lists them)", argv[1]));

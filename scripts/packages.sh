@@ -14,6 +14,7 @@ packages_build=(
   librsvg2-dev pkgconf # the confusion matrix as a PNG file
   nlohmann-json3-dev   # model files, JSON
   libcli11-dev         # command line
+  libcpp-httplib-dev   # the live page of spincat camera
   libfmt-dev           # formatting
   zlib1g-dev           # checksums
 )
@@ -23,6 +24,10 @@ packages_mpi=(
   pkgconf                     # finds every MPI that is installed
 )
 
+packages_camera=(
+  libfreenect-dev  # optional: a Kinect as the source of spincat camera
+)
+
 packages_demo=(
   sweethome3d-furniture  # 820 furniture models, CC0 and CC-BY 3.0
   unzip
@@ -30,6 +35,7 @@ packages_demo=(
 
 packages_test=(
   libgtest-dev
+  libfreenect-dev  # a Kinect's recording played back
   libopenmpi-dev openmpi-bin pkgconf libmpich-dev mpich  # the command under both makes of MPI
   openssh-server openssh-client iproute2                 # several hosts, as network namespaces
   slurm-wlm munge                                        # and under srun

@@ -476,6 +476,25 @@ TEST_F(Command, SpinGivesTheSameBytesForAnyNumberOfThreads) {
   EXPECT_EQ(contents(dir_.path() / "sheet.png").substr(1, 3), "PNG");
 }
 
+TEST_F(Command, ViewsAreTaughtAndMeasuredAndClassifySaysWhatAMeshIsToThem) {
+  make_shapes();
+  const std::string small = " --views 3 --up z --points 256 --spin-points 32";
+  EXPECT_EQ(run("train shapes -o views.spincat" + small).code, 0);
+  const Result named = run("classify views.spincat 'new box.off' new-cone.off");
+  EXPECT_EQ(named.code, 0);
+  EXPECT_EQ(named.err,
+            "spincat: new box.off: is a mesh, but the judges were taught by views: they see one view of it (1 more are "
+            "of such a kind)\n");
+  EXPECT_EQ(run("classify views.spincat new-cone.off --quiet").err, "");
+  const Json measured = Json::parse(run("evaluate shapes --splits 2 --json" + small).out);
+  ASSERT_EQ(measured.at("views").size(), 3U);
+  EXPECT_EQ(measured.at("views")[1].at("views"), 2);
+  EXPECT_EQ(measured.at("views")[2].at("mean_class_rate"), measured.at("mean_class_rate"));
+  EXPECT_EQ(run("train shapes -o x.spincat --views 3 --for any").code, 2);
+  EXPECT_EQ(run("train shapes -o x.spincat --for views").code, 2);
+  EXPECT_EQ(run("train shapes -o x.spincat --views 3 --up none").code, 2);
+}
+
 TEST_F(Command, EverySubcommandHasHelpWithAnExample) {
   for (const std::string command : {"", "train", "classify", "evaluate", "spin", "info"}) {
     const Result result = run(command + " --help");

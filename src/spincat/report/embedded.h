@@ -16,5 +16,6 @@ std::string_view object_js();
 std::string_view classification_js();
 std::string_view three_js();     // Debian's libjs-three
 std::string_view controls_js();  // its OrbitControls
+std::string_view live_html();
 
 }  // namespace spincat::embedded

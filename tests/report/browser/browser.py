@@ -20,8 +20,9 @@ class PageError(Exception):
 class Browser:
     """One page. Console errors, exceptions and requests of the network are collected in `complaints`."""
 
-    def __init__(self, program=None):
+    def __init__(self, program=None, allowed=("file:", "data:", "about:")):
         self.complaints = []
+        self._allowed = allowed
         self._profile = tempfile.mkdtemp(prefix="spincat-browser-")
         to_browser, self._out = os.pipe()
         self._in, from_browser = os.pipe()
@@ -77,7 +78,7 @@ class Browser:
             self.complaints.append("log: " + values["entry"]["text"][:600])
         elif method == "Network.requestWillBeSent":
             url = values["request"]["url"]
-            if not url.startswith(("file:", "data:", "about:")):
+            if not url.startswith(self._allowed):
                 self.complaints.append("request: " + url[:200])
 
     def call(self, method, **params):
@@ -103,6 +104,11 @@ class Browser:
                   features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
         self.call("Page.navigate", url="file://" + os.path.abspath(path))
         self.wait_for("document.readyState === 'complete' && location.protocol === 'file:'")
+
+    def visit(self, url):
+        """Opens a page of a server that is among the allowed ones."""
+        self.call("Page.navigate", url=url)
+        self.wait_for("document.readyState === 'complete' && location.protocol === 'http:'")
 
     def run(self, script):
         """The value of a JavaScript expression."""

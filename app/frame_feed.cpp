@@ -1,0 +1,126 @@
+#include "frame_feed.h"
+
+#include <atomic>
+#include <utility>
+
+#include "spincat/error.h"
+#include "spincat/pipeline/stopwatch.h"
+
+namespace spincat::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kMostFailures = 10;               // in a row
+constexpr std::chrono::milliseconds kWait(50);  // so long Ctrl-C waits for a frame
+
+// Reads one frame after the other and counts them.
+class FrameReader {
+ public:
+  FrameReader(std::unique_ptr<FrameSource> source, std::size_t every) : source_(std::move(source)), every_(every) {}
+
+  // Nothing after the last frame.
+  std::optional<FedFrame> read() {
+    if (failures_ == kMostFailures) {
+      return {};
+    }
+    for (; number_ % every_ != 0; ++number_) {
+      source_->skip();
+    }
+    FedFrame fed;
+    fed.number = number_++;
+    Stopwatch watch;
+    try {
+      std::optional<Frame> frame = source_->next();
+      if (!frame) {
+        return {};
+      }
+      fed.frame = std::move(*frame);
+      failures_ = 0;
+    } catch (const InputError& error) {
+      fed.error = error.what();
+      ++failures_;
+    }
+    fed.read_seconds = watch.lap();
+    return fed;
+  }
+
+ private:
+  std::unique_ptr<FrameSource> source_;
+  std::size_t every_;
+  std::size_t number_ = 0;
+  int failures_ = 0;
+};
+
+class AllFrames : public FrameFeed {
+ public:
+  AllFrames(std::unique_ptr<FrameSource> source, std::size_t every) : reader_(std::move(source), every) {}
+
+  std::optional<FedFrame> next() override {
+    std::optional<FedFrame> frame = reader_.read();
+    ended_ = !frame;
+    return frame;
+  }
+  bool ended() const override { return ended_; }
+
+ private:
+  FrameReader reader_;
+  bool ended_ = false;
+};
+
+class NewestFrames : public FrameFeed {
+ public:
+  NewestFrames(std::unique_ptr<FrameSource> source, std::size_t every)
+      : reader_(std::move(source), every), thread_([this](const std::stop_token& stop) { read_on(stop); }) {}
+
+  std::optional<FedFrame> next() override {
+    std::optional<FedFrame> frame = latest_.take(kWait);
+    if (frame) {
+      frame->dropped = dropped_;
+    }
+    return frame;
+  }
+  bool ended() const override { return latest_.closed(); }
+
+ private:
+  void read_on(const std::stop_token& stop) {
+    const auto start = Clock::now();
+    std::optional<double> first;
+    while (!stop.stop_requested()) {
+      std::optional<FedFrame> frame = reader_.read();
+      if (!frame) {
+        break;
+      }
+      if (frame->error.empty()) {
+        first = first.value_or(frame->frame.time);
+        const std::chrono::duration<double> offset(frame->frame.time - *first);
+        wait_until(start + std::chrono::duration_cast<Clock::duration>(offset), stop);
+      }
+      dropped_ += latest_.put(std::move(*frame)) ? 1 : 0;
+    }
+    latest_.close();
+  }
+
+  static void wait_until(Clock::time_point when, const std::stop_token& stop) {
+    while (!stop.stop_requested() && Clock::now() < when) {
+      std::this_thread::sleep_until(std::min(when, Clock::now() + kWait));
+    }
+  }
+
+  FrameReader reader_;
+  Latest<FedFrame> latest_;
+  std::atomic<std::size_t> dropped_ = 0;
+  std::jthread thread_;  // the last member: it uses the others
+};
+
+}  // namespace
+
+std::unique_ptr<FrameFeed> feed_all(std::unique_ptr<FrameSource> source, std::size_t every) {
+  return std::make_unique<AllFrames>(std::move(source), every);
+}
+
+std::unique_ptr<FrameFeed> feed_in_real_time(std::unique_ptr<FrameSource> source, std::size_t every) {
+  return std::make_unique<NewestFrames>(std::move(source), every);
+}
+
+}  // namespace spincat::app

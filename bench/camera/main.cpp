@@ -1,0 +1,51 @@
+// spincat_camera_figures: the numbers of docs/camera.md, as JSON; scripts/camera-figures calls it.
+#include <malloc.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+
+#include "figures.h"
+
+int main(int argc, char** argv) {
+  CLI::App app("Measures how well and how fast spincat names what a depth camera sees.");
+  std::filesystem::path dataset;
+  spincat::DatasetOptions data_options;
+  std::filesystem::path kinect;
+  std::filesystem::path scratch = "build/camera";
+  spincat::bench::SceneOptions options;
+  bool scenes = false;
+  double speed = 0.0;
+  app.add_option("--objects", dataset, "data set to make scenes of, whose y axis points up");
+  app.add_option("--models", data_options.models, "as spincat's --models");
+  app.add_option("--map", data_options.category_map, "as spincat's --map");
+  app.add_flag("--scenes", scenes, "rendered scenes of the objects");
+  app.add_option("--speed", speed, "so many seconds of each timing");
+  app.add_option("--kinect", kinect, "folder of the real scenes (mosd-dev)");
+  app.add_option("--scratch", scratch, "folder for generated shapes");
+  app.add_option("--views", options.views, "of each object");
+  app.add_option("--count", options.scenes, "scenes of each fifth of the objects");
+  app.add_option("--seed", options.seed, "of the scenes");
+  app.add_option("--threads", options.threads, "to learn on");
+  CLI11_PARSE(app, argc, argv);
+  constexpr int kKeep = 1 << 28;  // bytes: as the command has it
+  mallopt(M_MMAP_THRESHOLD, kKeep);
+  mallopt(M_TRIM_THRESHOLD, kKeep);
+  try {
+    spincat::bench::Json report = spincat::bench::Json::object();
+    if (!kinect.empty()) {
+      report["kinect"] = spincat::bench::kinect_figures(kinect, scratch / "shapes", options.views, options.threads);
+    }
+    if (scenes) {
+      report["scenes"] = spincat::bench::scene_figures(spincat::read_dataset({dataset}, data_options), options);
+    }
+    if (speed > 0.0) {
+      report["speed"] = spincat::bench::speed_figures(spincat::read_dataset({dataset}, data_options), options, speed);
+    }
+    std::cout << report.dump(2) << '\n';
+  } catch (const std::exception& error) {
+    std::cerr << "spincat_camera_figures: " << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}

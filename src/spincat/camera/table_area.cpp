@@ -14,7 +14,8 @@ constexpr int kGrown = 2;                 // cells that the area is wider than w
 constexpr int kMostCells = 1'000;         // along an axis: 20 m
 constexpr int kLeastNeighbours = 7;       // filled cells among a cell's 3 x 3 for it to count
 constexpr double kLeastComponent = 0.01;  // of the largest component, for another to count
-constexpr int kStride = 2;                // every second pixel both ways is looked at
+constexpr int kFat = 3;     // cells around a cell that must be filled for a component to be more than a strip
+constexpr int kStride = 2;  // every second pixel both ways is looked at
 
 struct GridPoint {
   int x;
@@ -87,7 +88,25 @@ std::vector<GridPoint> dense_cells(const Grid& grid) {
   return kept;
 }
 
-// Those of the cells that belong to a component (4 neighbours) of at least kLeastComponent of the largest.
+// Whether somewhere in a component a square of 14 cm is filled but for a tenth. What is not so wide is a strip: where a
+// wall or a cupboard passes through the plane of the table.
+bool is_fat(const std::vector<GridPoint>& component, const Grid& grid) {
+  constexpr int kSide = 2 * kFat + 1;
+  constexpr int kFilled = kSide * kSide * 9 / 10;
+  const auto filled_around = [&](const GridPoint& c) {
+    int filled = 0;
+    for (int y = c.y - kFat; y <= c.y + kFat; ++y) {
+      for (int x = c.x - kFat; x <= c.x + kFat; ++x) {
+        filled += grid.at(x, y) != 0 ? 1 : 0;
+      }
+    }
+    return filled >= kFilled;
+  };
+  return std::ranges::any_of(component.rbegin(), component.rend(), filled_around);
+}
+
+// Those of the cells that belong to a component (4 neighbours) of at least kLeastComponent of the largest that is no
+// strip, and the largest.
 std::vector<GridPoint> large_components(const std::vector<GridPoint>& cells, Grid grid) {
   std::ranges::fill(grid.cells, 0);
   for (const GridPoint& c : cells) {
@@ -95,13 +114,13 @@ std::vector<GridPoint> large_components(const std::vector<GridPoint>& cells, Gri
   }
   std::vector<std::vector<GridPoint>> components;
   for (const GridPoint& c : cells) {
-    if (grid.at(c.x, c.y) == 0) {
+    if (grid.at(c.x, c.y) != 1) {
       continue;
     }
     std::vector<GridPoint> component;
     const auto take = [&](GridPoint p) {
       if (grid.at(p.x, p.y) == 1) {
-        grid.cells[static_cast<std::size_t>(p.y * grid.columns + p.x)] = 0;
+        grid.cells[static_cast<std::size_t>(p.y * grid.columns + p.x)] = 2;
         component.push_back(p);
       }
     };
@@ -120,7 +139,8 @@ std::vector<GridPoint> large_components(const std::vector<GridPoint>& cells, Gri
   }
   std::vector<GridPoint> kept;
   for (const auto& component : components) {
-    if (static_cast<double>(component.size()) >= kLeastComponent * static_cast<double>(largest)) {
+    const bool large = static_cast<double>(component.size()) >= kLeastComponent * static_cast<double>(largest);
+    if (component.size() == largest || (large && is_fat(component, grid))) {
       kept.insert(kept.end(), component.begin(), component.end());
     }
   }

@@ -9,11 +9,15 @@
 namespace spincat {
 namespace {
 
-TEST(TextWidth, CountsCodePoints) {
+TEST(TextWidth, CountsColumns) {
   EXPECT_EQ(text_width(""), 0U);
   EXPECT_EQ(text_width("chair"), 5U);
   EXPECT_EQ(text_width("étagère"), 7U);
-  EXPECT_EQ(text_width("椅子"), 2U);
+  EXPECT_EQ(text_width("椅子"), 4U);            // wide
+  EXPECT_EQ(text_width("🪑"), 2U);            // and so are emoji
+  EXPECT_EQ(text_width("e\u0301t\u00e9"), 3U);  // an accent of its own combines
+  EXPECT_EQ(text_width("בית"), 3U);
+  EXPECT_EQ(text_width("\xFF\xC3"), 2U);  // no UTF-8: as the '?' that printable makes of it
 }
 
 TEST(CutInTheMiddle, KeepsWhatFits) {
@@ -34,6 +38,23 @@ TEST(CutInTheMiddle, NeverCutsInsideACodePoint) {
   for (std::size_t width = 0; width < 12; ++width) {
     EXPECT_EQ(text_width(cut_in_the_middle("éèêëàâäùûü", width)), std::min<std::size_t>(width, 10));
   }
+}
+
+TEST(CutInTheMiddle, KeepsWideCharactersAndAccentsWhole) {
+  EXPECT_EQ(cut_in_the_middle("椅子椅子椅子", 7), "椅…子");  // 3 columns on either side hold one of them
+  EXPECT_EQ(cut_in_the_middle("椅子椅子椅子", 9), "椅子…椅子");
+  EXPECT_EQ(cut_in_the_middle("ae\u0301xxxxe\u0301b", 5), "ae\u0301…e\u0301b");
+  EXPECT_EQ(cut_in_the_middle("abxxxxxe\u0301b", 4), "a…e\u0301b");
+  for (std::size_t width = 0; width < 20; ++width) {
+    EXPECT_LE(text_width(cut_in_the_middle("椅a子e\u0301椅子bc椅子🪑de", width)), width);
+  }
+}
+
+TEST(Printable, ReplacesWhatTurnsTheDirection) {
+  EXPECT_EQ(printable("a\u202Egnp.exe"), "a?gnp.exe");
+  EXPECT_EQ(printable("\u202A\u2066x\u2069"), "??x?");
+  EXPECT_EQ(printable("בית \u2029\u202F\u2065"),
+            "בית \u2029\u202F\u2065");  // their neighbours, and what runs that way by itself
 }
 
 TEST(Printable, ReplacesControlCharacters) {

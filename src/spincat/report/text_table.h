@@ -9,14 +9,16 @@
 
 namespace spincat {
 
-// How many columns of a terminal a UTF-8 text takes: one a code point (wide and combining characters are not known
-// here).
+// How many columns of a terminal a UTF-8 text takes, by the C library's wcwidth: two for a wide character (CJK, emoji),
+// none for one that combines with that before it.
 std::size_t text_width(std::string_view text);
 
-// `text` cut to `width` columns by leaving out its middle ("very/lo…air.obj"), never inside a code point.
+// `text` cut to `width` columns, or one less where a wide character would stand across the cut, by leaving out its
+// middle ("very/lo…air.obj"); never inside a code point, and no accent without its letter.
 std::string cut_in_the_middle(std::string_view text, std::size_t width);
 
-// `text` with control characters and what is no UTF-8 replaced by '?', so that a file's name cannot steer a terminal.
+// `text` with control characters, characters that change the direction of what follows, and what is no UTF-8 replaced
+// by '?', so that a file's name cannot steer a terminal.
 std::string printable(std::string_view text);
 
 // `text` in lines of at most `width` columns, broken at blanks; a longer word keeps a line to itself. Every line but

@@ -45,6 +45,7 @@ int run_info(const InfoArguments& arguments) {
   const std::string name = arguments.file.string();
   const Settings settings = arguments.settings.settings();
   const Object object = read_object(arguments.file);
+  const ObjectFacts facts = facts_of(object);
   if (!arguments.report.empty()) {
     Preparation prepared;
     try {
@@ -52,9 +53,8 @@ int run_info(const InfoArguments& arguments) {
     } catch (const InputError& error) {
       throw InputError(name, error.problem());
     }
-    write_file_atomically(arguments.report, object_page(name, object, prepared, settings, command_line()));
+    write_file_atomically(arguments.report, object_page(name, object, facts, prepared, settings, command_line()));
   }
-  const ObjectFacts facts = facts_of(object);
   fmt::print("{}", arguments.json ? object_json(name, facts) + "\n" : object_text(facts));
   return 0;
 }

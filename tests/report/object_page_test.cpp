@@ -196,7 +196,8 @@ TEST(ObjectPage, HoldsTheFactsAndTheBrokenTriangles) {
   std::swap(mesh.triangles[3][1], mesh.triangles[3][2]);
   mesh.triangles.push_back({0, 0, 1});
   const Settings settings = preset("default");
-  const std::string page = object_page(kNasty, mesh, prepare_object(mesh, settings), settings, {"spincat", "info"});
+  const std::string page =
+      object_page(kNasty, mesh, facts_of(mesh), prepare_object(mesh, settings), settings, {"spincat", "info"});
   const Json data = element(page, "data");
   EXPECT_EQ(data["kind"], "object");
   EXPECT_EQ(data["result"], Json::parse(object_json(kNasty, facts_of(mesh))));

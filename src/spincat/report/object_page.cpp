@@ -87,14 +87,15 @@ std::string classification_page(const std::string& model_file, const Model& mode
   return page(data, parts, scripts_with(embedded::classification_js()));
 }
 
-std::string object_page(const std::string& file, const Object& object, const Preparation& preparation,
-                        const Settings& settings, const std::vector<std::string>& command) {
+std::string object_page(const std::string& file, const Object& object, const ObjectFacts& facts,
+                        const Preparation& preparation, const Settings& settings,
+                        const std::vector<std::string>& command) {
   const Json shown = {{"shape", shape_json(object, preparation.object, kShapeBytes)},
                       {"surface", points_json(preparation.object.surface)},
                       {"spin", points_json(preparation.object.spin_points)},
                       {"defects", defects_json(object, preparation.object)}};
   const Json data = {{"kind", "object"},
-                     {"result", Json::parse(object_json(file, facts_of(object)))},
+                     {"result", Json::parse(object_json(file, facts))},
                      {"settings", settings_to_json(settings)},
                      {"run", run_json(command)}};
   return page(data, {{"object-0", line(shown)}}, scripts_with(embedded::object_js()));

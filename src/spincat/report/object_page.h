@@ -10,6 +10,7 @@
 #include "spincat/pipeline/describe.h"
 #include "spincat/pipeline/evidence.h"
 #include "spincat/pipeline/model.h"
+#include "spincat/pipeline/settings.h"
 #include "spincat/prepare/facts.h"
 
 namespace spincat {
@@ -40,7 +41,8 @@ std::string classification_page(const std::string& model_file, const Model& mode
 
 // The object with its surface points, their normals and its spin points, its facts, and which of its triangles are
 // broken. The points are those that the first part of describe uses with these settings. Deterministic.
-std::string object_page(const std::string& file, const Object& object, const Preparation& preparation,
-                        const Settings& settings, const std::vector<std::string>& command);
+std::string object_page(const std::string& file, const Object& object, const ObjectFacts& facts,
+                        const Preparation& preparation, const Settings& settings,
+                        const std::vector<std::string>& command);
 
 }  // namespace spincat

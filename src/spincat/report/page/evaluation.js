@@ -41,11 +41,7 @@ function showCell(panel, truth, named) {
   const title = el('h3', { id: 'cell-title' }, nameText(categories[truth]), truth === named ? ' named right' : ' named ', truth === named ? null : nameText(categories[named]));
   panel.replaceChildren(title,
     el('p', { class: 'soft small' }, countText(result.confusion[truth][named], 'time'), ', ', countText(found.length, 'object')),
-    ...(data.shapes ? [objectViewer(found.map((each) => each.i))] : []),
-    pagedTable([['object', 'name'], ['times', 'number']], found, (each) => [
-      data.shapes ? el('button', { type: 'button', class: 'choice', onclick: () => showShape(each.i) }, nameText(objectName(each.i))) : nameText(objectName(each.i)),
-      each.times + ' of ' + each.of]));
-  if (data.shapes && found.length > 0) showShape(found[0].i);
+    pagedTable([['object', 'name'], ['times', 'number']], found, (each) => [nameText(objectName(each.i)), each.times + ' of ' + each.of]));
 }
 
 function matrixCell(truth, named) {

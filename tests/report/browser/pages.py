@@ -68,6 +68,10 @@ def check_theme(browser):
     check(browser.run(colour) != before, "the theme does not change")
     browser.run("document.getElementById('theme').click()")
     check(browser.run(colour) == before, "the theme does not change back")
+    browser.run("document.documentElement.dataset.theme = 'dark'")
+    browser.call("Emulation.setEmulatedMedia", media="print")
+    check(browser.run(colour) == "rgb(255, 255, 255)", "a dark page is printed dark")
+    browser.call("Emulation.setEmulatedMedia", media="")
 
 
 def check_widths(browser, path):

@@ -1,6 +1,7 @@
 // The spincat command. Results go to standard output, everything else to standard error.
 // Exit codes: 0 done, 1 could not do it, 2 wrong use or bad input, 128 + n ended by signal n.
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -32,6 +33,13 @@ namespace {
 
 using namespace spincat;       // NOLINT(google-build-using-namespace)
 using namespace spincat::app;  // NOLINT(google-build-using-namespace)
+
+// Each object takes and gives back some megabytes: asking the kernel for them anew, which clears them, would cost a
+// quarter of the time of a small one.
+void keep_memory() {
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most that it takes
+  mallopt(M_TRIM_THRESHOLD, 64 << 20);
+}
 
 int fail(const std::string& problem, int code) {
   message(problem);
@@ -124,6 +132,7 @@ int run_on_ranks(int argc, char** argv, const Launch& launch) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_memory();
   fill_closed_streams();
   catch_interrupts();
   keep_command_line(argc, argv);

@@ -1,4 +1,6 @@
 // spincat_bench: how fast this build is on this machine, as JSON on standard output; scripts/bench makes a table of it.
+#include <malloc.h>
+
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <fstream>
@@ -32,6 +34,8 @@ int main(int argc, char** argv) {
       ->envname("SPINCAT_BENCH_OBJECTS");
   app.add_option("--rounds", rounds, "how often each is timed");
   CLI11_PARSE(app, argc, argv);
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // as the command does
+  mallopt(M_TRIM_THRESHOLD, 64 << 20);
   try {
     nlohmann::ordered_json report;
     report["machine"] = processor();

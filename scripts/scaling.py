@@ -76,9 +76,9 @@ def run(arguments, ranks, threads, mpi):
     return seconds, result.stderr.strip().splitlines()[-1:] if ranks > 1 else []
 
 
-def dense(file, folder, more=()):
-    """An image at each point of the object, over the whole object."""
-    return ["spin", str(file), "-o", str(folder / "out.npy"), "--bin-size", "0.1rel", "--image-width", str(IMAGE_WIDTH),
+def dense(file, folder, more=(), bin_size="0.1rel"):
+    """An image at each point of the object; the usual bins see the whole of it."""
+    return ["spin", str(file), "-o", str(folder / "out.npy"), "--bin-size", bin_size, "--image-width", str(IMAGE_WIDTH),
             *more]
 
 
@@ -286,7 +286,8 @@ def acceptance(options, folder):
     """Two ranks of one thread against one rank of one thread."""
     file = folder / "torus-500k.ply"
     points = torus(file, 500_000)
-    works = [(f"{points} points, an image at each", dense(file, folder))]
+    works = [(f"{points} points, an image at each, support distance the object's radius",
+              dense(file, folder, bin_size="0.05rel"))]
     if options.objects:
         works.append(("training", training(options.objects, folder)))
     for name, arguments in works:

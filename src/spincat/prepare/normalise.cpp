@@ -9,6 +9,30 @@
 #include "spincat/error.h"
 
 namespace spincat {
+namespace {
+
+// The largest distance from the centre. By hypot, which neither overflows nor loses small numbers but is slow: squares
+// tell which points are worth it, where they can be trusted themselves.
+double longest_of(std::span<const Vec3> points, const Vec3& centre) {
+  double square = 0.0;
+  for (const Vec3& p : points) {
+    square = std::max(square, (p - centre).squaredNorm());
+  }
+  constexpr double kSmallest = 1e-280;
+  constexpr double kLargest = 1e280;
+  constexpr double kRounding = 1e-12;
+  const double enough = square > kSmallest && square < kLargest ? square * (1.0 - kRounding) : 0.0;
+  double longest = 0.0;
+  for (const Vec3& p : points) {
+    const Vec3 d = p - centre;
+    if (!(d.squaredNorm() < enough)) {
+      longest = std::max(longest, std::hypot(d.x(), d.y(), d.z()));
+    }
+  }
+  return longest;
+}
+
+}  // namespace
 
 Similarity unit_similarity(std::span<const Vec3> points) {
   if (points.empty()) {
@@ -22,11 +46,7 @@ Similarity unit_similarity(std::span<const Vec3> points) {
   }
   // Halves before the sum, and the length by hypot: neither overflows for finite coordinates.
   const Vec3 centre = 0.5 * low + 0.5 * high;
-  double furthest = 0.0;
-  for (const Vec3& p : points) {
-    const Vec3 d = p - centre;
-    furthest = std::max(furthest, std::hypot(d.x(), d.y(), d.z()));
-  }
+  const double furthest = longest_of(points, centre);
   const double factor = 1.0 / furthest;
   if (!(furthest > 0.0) || !std::isfinite(factor) || !std::isfinite(furthest)) {
     throw InputError("all its points are at one place");

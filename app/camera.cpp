@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <malloc.h>
 #include <unistd.h>
 
 #include <charconv>
@@ -215,13 +214,6 @@ class CameraRun {
   std::unique_ptr<FrameFeed> feed_;
 };
 
-// Each frame takes and gives back the same few megabytes: asking the system for them anew costs more than the table.
-void keep_memory() {
-  constexpr int kBytes = 1 << 28;
-  mallopt(M_MMAP_THRESHOLD, kBytes);
-  mallopt(M_TRIM_THRESHOLD, kBytes);
-}
-
 int run_camera(const CameraArguments& arguments) {
   const Model model = read_model(arguments.model);
   if (model.settings.taught_for != TaughtFor::views && !arguments.run.quiet) {
@@ -229,7 +221,6 @@ int run_camera(const CameraArguments& arguments) {
         "{}: was taught for {}, not for what a camera sees; names will often be wrong (train --views 12 teaches that)",
         arguments.model.string(), name_of(model.settings.taught_for)));
   }
-  keep_memory();
   CameraRun run(arguments, model, arguments.run.thread_count());
   run.run();
   return run.summary().failed > 0 ? 2 : 0;

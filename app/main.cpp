@@ -115,18 +115,22 @@ int run(int argc, char** argv, TaskFarm& farm) {
 // Rank 0 runs the command; the others work for it and say nothing.
 int run_on_ranks(int argc, char** argv, const Launch& launch) {
   std::unique_ptr<MpiWatch> watch = watch_start(launch);
-  const std::unique_ptr<Communicator> ranks = join_ranks(launch);
+  std::unique_ptr<Communicator> ranks = join_ranks(launch);
   watch.reset();
+  int code = 0;
   if (ranks->rank() == 0) {
     TaskFarm farm(*ranks);
-    const int code = report_errors([&] { return run(argc, argv, farm); });
+    code = report_errors([&] { return run(argc, argv, farm); });
     watch = watch_end(launch, code);
-    return code;
+  } else {
+    const auto threads = [&](int requested) { return thread_count(requested, ranks->ranks_on_host()); };
+    serve(*ranks, pipeline_work(), threads, stop_if_interrupted);
+    watch = watch_end(launch, code);
   }
-  const auto threads = [&](int requested) { return thread_count(requested, ranks->ranks_on_host()); };
-  serve(*ranks, pipeline_work(), threads, stop_if_interrupted);
-  watch = watch_end(launch, 0);
-  return 0;
+  ranks.reset();  // ends MPI
+  watch.reset();
+  leave_last(launch);
+  return code;
 }
 
 }  // namespace

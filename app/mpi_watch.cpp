@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kBetweenLooks(100);
+constexpr std::chrono::milliseconds kBetweenLastLooks(2);
 
 fs::path program_of(std::int64_t process) {
   std::error_code error;
@@ -67,6 +68,10 @@ class Host {
         ::kill(static_cast<pid_t>(rank), SIGKILL);
       }
     }
+  }
+
+  bool others_are_there() const {
+    return std::ranges::any_of(seen_, [](const auto& rank) { return rank.first != getpid() && is_there(rank.first); });
   }
 
   double gone_for() const { return longest_since(&Seen::last_there); }
@@ -144,6 +149,19 @@ std::unique_ptr<MpiWatch> watch_end(const Launch& launch, int exit_code) {
       std::_Exit(exit_code);
     }
   });
+}
+
+void leave_last(const Launch& launch) {
+  if (launch.processes < 2 || launch.number != 0) {
+    return;
+  }
+  Host host;
+  host.look();
+  while (host.others_are_there() && host.watched_for() < 2.0) {
+    host.kill_stopped();
+    std::this_thread::sleep_for(kBetweenLastLooks);
+    host.look();
+  }
 }
 
 }  // namespace spincat::app

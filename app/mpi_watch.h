@@ -37,4 +37,8 @@ std::unique_ptr<MpiWatch> watch_start(const Launch& launch);
 // beside it has long gone, or after fifteen deadlines. Whatever the command had to write is complete by then.
 std::unique_ptr<MpiWatch> watch_end(const Launch& launch, int exit_code);
 
+// For rank 0, when MPI has ended: waits for the other ranks of this host to go, at most two deadlines, and kills those
+// that stay stopped. Nobody else would, and the launcher would wait for them for ever.
+void leave_last(const Launch& launch);
+
 }  // namespace spincat::app

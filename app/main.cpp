@@ -114,22 +114,23 @@ int run(int argc, char** argv, TaskFarm& farm) {
 
 // Rank 0 runs the command; the others work for it and say nothing.
 int run_on_ranks(int argc, char** argv, const Launch& launch) {
-  std::unique_ptr<MpiWatch> watch = watch_start(launch);
+  const std::shared_ptr<HostRanks> host = ranks_of_host();
+  std::unique_ptr<MpiWatch> watch = watch_start(launch, host);
   std::unique_ptr<Communicator> ranks = join_ranks(launch);
   watch.reset();
   int code = 0;
   if (ranks->rank() == 0) {
     TaskFarm farm(*ranks);
     code = report_errors([&] { return run(argc, argv, farm); });
-    watch = watch_end(launch, code);
+    watch = watch_end(launch, host, code);
   } else {
     const auto threads = [&](int requested) { return thread_count(requested, ranks->ranks_on_host()); };
     serve(*ranks, pipeline_work(), threads, stop_if_interrupted);
-    watch = watch_end(launch, code);
+    watch = watch_end(launch, host, code);
   }
   ranks.reset();  // ends MPI
   watch.reset();
-  leave_last(launch);
+  leave_last(launch, *host);
   return code;
 }
 

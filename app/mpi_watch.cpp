@@ -47,9 +47,19 @@ std::vector<std::int64_t> ranks_beside_us() {
   return ranks;
 }
 
+// Not exit(): what it would call belongs to a thread that hangs in MPI.
+[[noreturn]] void give_up_start(const Launch& launch, const char* reason) {
+  if (launch.number == 0) {
+    message(fmt::format("{} while MPI started; the same command may be given again", reason));
+  }
+  std::_Exit(1);
+}
+
+}  // namespace
+
 // What becomes of the ranks of this host. Times are in deadlines for silence: others get as long to tell more of the
 // reason, to end as they should, or to be continued.
-class Host {
+class HostRanks {
  public:
   void look() {
     const auto now = Clock::now();
@@ -59,6 +69,14 @@ class Host {
     for (auto& [rank, seen] : seen_) {
       seen.last_there = is_there(rank) ? now : seen.last_there;
       seen.last_running = is_stopped(rank) ? seen.last_running : now;
+    }
+  }
+
+  // What was before does not count any more; who was seen does.
+  void begin_again() {
+    start_ = Clock::now();
+    for (auto& [rank, seen] : seen_) {
+      seen = {start_, start_};
     }
   }
 
@@ -98,15 +116,9 @@ class Host {
   std::map<std::int64_t, Seen> seen_;
 };
 
-// Not exit(): what it would call belongs to a thread that hangs in MPI.
-[[noreturn]] void give_up_start(const Launch& launch, const char* reason) {
-  if (launch.number == 0) {
-    message(fmt::format("{} while MPI started; the same command may be given again", reason));
-  }
-  std::_Exit(1);
+std::shared_ptr<HostRanks> ranks_of_host() {
+  return std::make_shared<HostRanks>();
 }
-
-}  // namespace
 
 MpiWatch::MpiWatch(std::function<void()> look) : look_(std::move(look)), thread_([this] { look_on(); }) {}
 
@@ -123,39 +135,40 @@ void MpiWatch::look_on() {
   }
 }
 
-std::unique_ptr<MpiWatch> watch_start(const Launch& launch) {
+std::unique_ptr<MpiWatch> watch_start(const Launch& launch, std::shared_ptr<HostRanks> host) {
   if (launch.processes < 2) {
     return nullptr;
   }
-  return std::make_unique<MpiWatch>([launch, host = Host()]() mutable {
-    host.look();
-    if (host.gone_for() > 1.0) {
+  return std::make_unique<MpiWatch>([launch, host = std::move(host)] {
+    host->look();
+    if (host->gone_for() > 1.0) {
       give_up_start(launch, "a rank was lost");
     }
-    if (host.stopped_for() > 5.0 || host.watched_for() > 30.0) {
+    if (host->stopped_for() > 5.0 || host->watched_for() > 30.0) {
       give_up_start(launch, "a rank did not answer");
     }
   });
 }
 
-std::unique_ptr<MpiWatch> watch_end(const Launch& launch, int exit_code) {
+std::unique_ptr<MpiWatch> watch_end(const Launch& launch, std::shared_ptr<HostRanks> host, int exit_code) {
   if (launch.processes < 2) {
     return nullptr;
   }
-  return std::make_unique<MpiWatch>([exit_code, host = Host()]() mutable {
-    host.look();
-    host.kill_stopped();
-    if (host.gone_for() > 2.0 || host.watched_for() > 15.0) {
+  host->begin_again();
+  return std::make_unique<MpiWatch>([host = std::move(host), exit_code] {
+    host->look();
+    host->kill_stopped();
+    if (host->gone_for() > 2.0 || host->watched_for() > 15.0) {
       std::_Exit(exit_code);
     }
   });
 }
 
-void leave_last(const Launch& launch) {
+void leave_last(const Launch& launch, HostRanks& host) {
   if (launch.processes < 2 || launch.number != 0) {
     return;
   }
-  Host host;
+  host.begin_again();
   host.look();
   while (host.others_are_there() && host.watched_for() < 2.0) {
     host.kill_stopped();

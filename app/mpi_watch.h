@@ -29,16 +29,20 @@ class MpiWatch {
   std::jthread thread_;
 };
 
+// What is known of the ranks of this host, from their start on.
+class HostRanks;
+std::shared_ptr<HostRanks> ranks_of_host();
+
 // While MPI starts: ends this process with a line that says so when a rank beside it has gone or stays stopped, or
 // after thirty deadlines for silence. Nothing is lost by then: the journal has what an earlier run finished.
-std::unique_ptr<MpiWatch> watch_start(const Launch& launch);
+std::unique_ptr<MpiWatch> watch_start(const Launch& launch, std::shared_ptr<HostRanks> host);
 
 // While MPI ends: kills ranks of this host that stay stopped, and ends this process with its exit code when a rank
 // beside it has long gone, or after fifteen deadlines. Whatever the command had to write is complete by then.
-std::unique_ptr<MpiWatch> watch_end(const Launch& launch, int exit_code);
+std::unique_ptr<MpiWatch> watch_end(const Launch& launch, std::shared_ptr<HostRanks> host, int exit_code);
 
 // For rank 0, when MPI has ended: waits for the other ranks of this host to go, at most two deadlines, and kills those
 // that stay stopped. Nobody else would, and the launcher would wait for them for ever.
-void leave_last(const Launch& launch);
+void leave_last(const Launch& launch, HostRanks& host);
 
 }  // namespace spincat::app

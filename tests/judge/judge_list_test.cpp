@@ -166,7 +166,7 @@ TEST(TrainingSet, TellsMarginsWithoutFolding) {
       objects.emplace_back(clouds.features.row(row).data(), 8);
     }
     const FeatureMatrix margins = training.margins(taught, rows);
-    const FeatureMatrix expected = training.list(taught, 2).margins(objects);
+    const FeatureMatrix expected = training.list(taught).margins(objects);
     ASSERT_EQ(margins.rows(), 3);
     ASSERT_EQ(margins.cols(), 3);
     EXPECT_LT((margins - expected).cwiseAbs().maxCoeff(), 1e-4F * (1.0F + expected.cwiseAbs().maxCoeff()));

@@ -82,7 +82,7 @@ struct Outcome {
 Job squares(const std::vector<int>& numbers, Outcome& outcome) {
   Job job;
   job.kind = "square";
-  job.context = [] { return std::string("="); };
+  job.context = [](Packer& packer) { packer.add_rest("="); };
   job.work = [](std::string_view task) { return square("=", task); };
   job.tasks = numbers.size();
   job.task = [&numbers](std::size_t i) { return std::to_string(numbers[i]); };

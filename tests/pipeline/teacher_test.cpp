@@ -46,15 +46,16 @@ std::vector<std::uint32_t> all_objects() {
   return objects;
 }
 
-struct Taught {
-  JudgeList judges;
-  Calibration calibration;
-};
-
-Taught teach_on(TaskFarm& farm, const FeatureTable& table, const JudgeSettings& settings) {
+CalibratedJudges teach_on(TaskFarm& farm, const FeatureTable& table, const JudgeSettings& settings) {
   Teacher teacher(table, settings, farm, kWorthSharing);
   EXPECT_EQ(&teacher.farm(), &farm);  // else nothing would be shared out
-  return {teacher.teach(all_objects()), teacher.calibrate(all_objects(), 7)};
+  return teacher.teach_calibrated(all_objects(), 7);
+}
+
+std::string packed(const Context& context) {
+  Packer packer;
+  context(packer);
+  return packer.take();
 }
 
 // Ranks that serve as the command's do.
@@ -92,16 +93,16 @@ TEST_P(Teaching, DoesNotDependOnRanksAndThreads) {
   const JudgeSettings settings{kernel, default_c(kernel), true};
   OwnFarm one(1);
   Teacher alone(table, settings, one.farm(), kWorthSharing);
-  const JudgeList judges = alone.teach(all_objects());
-  const Calibration calibration = alone.calibrate(all_objects(), 7);
+  const auto [judges, calibration] = alone.teach_calibrated(all_objects(), 7);
   ASSERT_EQ(judges.size(), 3U);
   EXPECT_NE(calibration.slope, Calibration{}.slope);
   for (const int count : {2, 4}) {
     ServingRanks ranks(count);
     TaskFarm farm(ranks.communicator());
     farm.use_threads(2, 2);
-    const Taught taught = teach_on(farm, table, settings);
+    const CalibratedJudges taught = teach_on(farm, table, settings);
     EXPECT_EQ(taught.judges.weights, judges.weights);
+    EXPECT_EQ(taught.judges.support_vectors, judges.support_vectors);
     EXPECT_EQ(taught.judges.bias, judges.bias);
     EXPECT_EQ(taught.judges.supports, judges.supports);
     EXPECT_EQ(taught.calibration.slope, calibration.slope);
@@ -138,9 +139,9 @@ TEST(Trials, AreTheSameFromWhatARankKeeps) {
   EXPECT_EQ(expected.strangers.size(), 1U);
 
   KeptData kept;
-  make_table_work(pack_table(data.table), kept);
-  make_gram_keeping_work(pack_gram(teacher.gram()), kept);
-  const Work work = make_trial_work(pack_trials(data, settings, true), kept);
+  make_table_work(packed([&](Packer& packer) { pack_table(data.table, packer); }), kept);
+  make_gram_keeping_work(packed([&](Packer& packer) { pack_gram(teacher.gram(), packer); }), kept);
+  const Work work = make_trial_work(packed([&](Packer& packer) { pack_trials(data, settings, true, packer); }), kept);
   const Trial found = unpack_trial(work(pack(split)), 3);
   EXPECT_EQ(found.confusion, expected.confusion);
   EXPECT_EQ(found.named, expected.named);

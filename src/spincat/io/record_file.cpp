@@ -187,15 +187,18 @@ std::string pack_record(std::string_view kind, std::uint32_t version, const json
   if (!is_kind(kind)) {
     throw InputError(fmt::format("a kind of record is up to {} letters from a to z", kLongestKind));
   }
-  std::string payload;
-  json::to_cbor(content, payload);
-  CborCheck(payload).run();
   std::string bytes(kFileMagic);
   append_little_endian(bytes, static_cast<std::uint32_t>(kind.size()));
   bytes += kind;
   append_little_endian(bytes, version);
-  append_little_endian(bytes, static_cast<std::uint64_t>(payload.size()));
-  bytes += payload;
+  const std::size_t length_at = bytes.size();
+  append_little_endian(bytes, std::uint64_t{0});
+  const std::size_t content_at = bytes.size();
+  json::to_cbor(content, bytes);  // behind the head: the content may be large
+  CborCheck(std::string_view(bytes).substr(content_at)).run();
+  std::string length;
+  append_little_endian(length, static_cast<std::uint64_t>(bytes.size() - content_at));
+  bytes.replace(length_at, length.size(), length);
   append_little_endian(bytes, checksum_of(bytes));
   return bytes;
 }

@@ -63,36 +63,40 @@ Judge TrainingSet::teach(CategoryPair pair, const JudgeSettings& settings) const
   return judge;
 }
 
-JudgeList TrainingSet::list(std::span<const Judge> judges, int threads) const {
+FoldedJudge TrainingSet::fold(const Judge& judge) const {
+  Eigen::RowVectorXd w = Eigen::RowVectorXd::Zero(features_.cols());
+  for (std::size_t s = 0; s < judge.rows.size(); ++s) {
+    w += judge.coefficients[s] * features_.row(judge.rows[s]).cast<double>();
+  }
+  return {w.cast<float>(), judge.bias, static_cast<std::uint32_t>(judge.rows.size())};
+}
+
+JudgeList TrainingSet::unfilled_list(std::size_t judges) const {
   JudgeList list;
   list.categories = categories();
   list.kernel = kernel_;
-  list.bias.resize(static_cast<Eigen::Index>(judges.size()));
-  for (std::size_t l = 0; l < judges.size(); ++l) {
-    list.bias[static_cast<Eigen::Index>(l)] = judges[l].bias;
-    list.support_vectors.push_back(static_cast<std::uint32_t>(judges[l].rows.size()));
+  list.weights.resize(static_cast<Eigen::Index>(judges), features_.cols());
+  list.bias.resize(static_cast<Eigen::Index>(judges));
+  list.support_vectors.resize(judges);
+  return list;
+}
+
+JudgeList TrainingSet::list(std::span<const Judge> judges) const {
+  if (kernel_.kind != KernelKind::linear) {
+    return list_with_supports(judges);
   }
-  if (kernel_.kind == KernelKind::linear) {
-    fold(judges, threads, list);
-  } else {
-    keep_supports(judges, list);
+  JudgeList list = unfilled_list(judges.size());
+  for (std::size_t l = 0; l < judges.size(); ++l) {
+    list.put(l, fold(judges[l]));
   }
   return list;
 }
 
-void TrainingSet::fold(std::span<const Judge> judges, int threads, JudgeList& list) const {
-  list.weights.resize(static_cast<Eigen::Index>(judges.size()), features_.cols());
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-  for (std::size_t l = 0; l < judges.size(); ++l) {
-    Eigen::RowVectorXd w = Eigen::RowVectorXd::Zero(features_.cols());
-    for (std::size_t s = 0; s < judges[l].rows.size(); ++s) {
-      w += judges[l].coefficients[s] * features_.row(judges[l].rows[s]).cast<double>();
-    }
-    list.weights.row(static_cast<Eigen::Index>(l)) = w.cast<float>();
-  }
-}
-
-void TrainingSet::keep_supports(std::span<const Judge> judges, JudgeList& list) const {
+JudgeList TrainingSet::list_with_supports(std::span<const Judge> judges) const {
+  JudgeList list;
+  list.categories = categories();
+  list.kernel = kernel_;
+  list.bias.resize(static_cast<Eigen::Index>(judges.size()));
   // The place of each support vector among those that are kept, in the order of the table.
   std::map<std::uint32_t, Eigen::Index> place;
   for (const Judge& judge : judges) {
@@ -108,11 +112,14 @@ void TrainingSet::keep_supports(std::span<const Judge> judges, JudgeList& list) 
   }
   list.weights.setZero(static_cast<Eigen::Index>(judges.size()), next);
   for (std::size_t l = 0; l < judges.size(); ++l) {
+    list.bias[static_cast<Eigen::Index>(l)] = judges[l].bias;
+    list.support_vectors.push_back(static_cast<std::uint32_t>(judges[l].rows.size()));
     for (std::size_t s = 0; s < judges[l].rows.size(); ++s) {
       list.weights(static_cast<Eigen::Index>(l), place.at(judges[l].rows[s])) =
           static_cast<float>(judges[l].coefficients[s]);
     }
   }
+  return list;
 }
 
 FeatureMatrix TrainingSet::margins(std::span<const Judge> judges, std::span<const std::uint32_t> rows) const {
@@ -133,6 +140,13 @@ FeatureMatrix TrainingSet::margins(std::span<const Judge> judges, std::span<cons
     margins.col(static_cast<Eigen::Index>(l)) = sum.cast<float>();
   }
   return margins;
+}
+
+void JudgeList::put(std::size_t l, const FoldedJudge& judge) {
+  const auto row = static_cast<Eigen::Index>(l);
+  weights.row(row) = judge.weights;
+  bias[row] = judge.bias;
+  support_vectors[l] = judge.support_vectors;
 }
 
 std::size_t JudgeList::feature_length() const {

@@ -32,6 +32,13 @@ struct Judge {
   float bias = 0.0F;
 };
 
+// A linear judge without its support vectors: margin(x) = weights . x + bias.
+struct FoldedJudge {
+  Eigen::RowVectorXf weights;  // D: the sum of coefficient times support vector
+  float bias = 0.0F;
+  std::uint32_t support_vectors = 0;  // how many there were
+};
+
 struct JudgeList;
 
 // What judges are taught on.
@@ -49,18 +56,22 @@ class TrainingSet {
   // Deterministic. Precondition: both categories have a row.
   Judge teach(CategoryPair pair, const JudgeSettings& settings) const;
 
-  // All judges in the order of all_pairs, put together. Linear ones are folded: w = sum of coefficient times support
-  // vector, after which no support vector is needed any more. With another kernel, support vectors that several judges
-  // share are kept once. The result does not depend on `threads`.
-  JudgeList list(std::span<const Judge> judges, int threads = 1) const;
+  // Deterministic. Precondition: the kernel is linear.
+  FoldedJudge fold(const Judge& judge) const;
+
+  // A list of so many judges, all still to be put into it. Precondition: the kernel is linear.
+  JudgeList unfilled_list(std::size_t judges) const;
+
+  // All judges in the order of all_pairs, put together. Linear ones are folded. With another kernel, support vectors
+  // that several judges share are kept once.
+  JudgeList list(std::span<const Judge> judges) const;
 
   // What judges say of some rows, from the inner products that they share: a row for each, a column for each judge. As
   // the list's margins up to rounding, and sooner. Deterministic. Precondition: there are shared inner products.
   FeatureMatrix margins(std::span<const Judge> judges, std::span<const std::uint32_t> rows) const;
 
  private:
-  void fold(std::span<const Judge> judges, int threads, JudgeList& list) const;
-  void keep_supports(std::span<const Judge> judges, JudgeList& list) const;
+  JudgeList list_with_supports(std::span<const Judge> judges) const;
 
   const FeatureMatrix& features_;
   const SharedGram& shared_gram_;
@@ -84,6 +95,9 @@ struct JudgeList {
   FeatureMatrix supports;  // S x D: the support vectors of all judges, each once; none for the linear kernel
 
   std::size_t size() const { return support_vectors.size(); }
+
+  // Makes judge l of a list of linear ones. Precondition: it has as many weights as the others.
+  void put(std::size_t l, const FoldedJudge& judge);
 
   // D: how many features the kernel sees of an object.
   std::size_t seen_length() const;

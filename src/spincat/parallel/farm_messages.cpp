@@ -5,8 +5,6 @@
 
 #include <array>
 
-#include "spincat/parallel/packing.h"
-
 namespace spincat::farm {
 
 Greeting own_greeting() {
@@ -48,17 +46,15 @@ Greeting unpack_greeting(std::string_view bytes) {
   return greeting;
 }
 
-std::string pack(const JobStart& start) {
-  return Packer().add(start.job).add(start.threads).add(start.kind).add(start.context).take();
+void pack_job_start(const JobStart& start, Packer& packer) {
+  packer.add(start.job).add(start.threads).add(start.kind);
 }
 
-JobStart unpack_job_start(std::string_view bytes) {
-  Unpacker fields(bytes);
+JobStart unpack_job_start(Unpacker& fields) {
   JobStart start;
   start.job = fields.get<std::uint32_t>();
   start.threads = fields.get<std::int32_t>();
   start.kind = fields.get_text();
-  start.context = fields.get_text();
   return start;
 }
 

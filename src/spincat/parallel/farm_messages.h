@@ -6,16 +6,17 @@
 #include <string>
 #include <string_view>
 
+#include "spincat/parallel/packing.h"
 #include "spincat/parallel/task.h"
 
 namespace spincat::farm {
 
 // Raised whenever a message changes: ranks of different versions must not work together.
-inline constexpr std::uint32_t kProtocol = 1;
+inline constexpr std::uint32_t kProtocol = 2;
 
 enum Tag : int {
   kHello,     // to rank 0: Greeting
-  kJob,       // from rank 0: JobStart
+  kJob,       // from rank 0: JobStart and its context
   kReady,     // to rank 0: job, threads
   kRefusal,   // to rank 0: job, reason
   kTask,      // from rank 0: job, task, its bytes
@@ -39,15 +40,15 @@ struct JobStart {
   std::uint32_t job = 0;
   std::int32_t threads = 0;  // as asked for by the user; 0 means what is there
   std::string_view kind;
-  std::string_view context;
 };
 
 Greeting own_greeting();
 std::string pack(const Greeting& greeting);
 Greeting unpack_greeting(std::string_view bytes);
 
-std::string pack(const JobStart& start);
-JobStart unpack_job_start(std::string_view bytes);  // points into `bytes`
+// Its context follows: it may be large, and need not be copied.
+void pack_job_start(const JobStart& start, Packer& packer);
+JobStart unpack_job_start(Unpacker& fields);  // points into the bytes
 
 std::string pack(std::uint32_t job, const TaskResult& result);
 TaskResult unpack_result(std::string_view bytes, std::uint32_t& job);

@@ -37,6 +37,12 @@ class Packer {
     return add(std::string_view(reinterpret_cast<const char*>(values.data()), values.size_bytes()));
   }
 
+  // Bytes to the end: what Unpacker::rest() gives.
+  Packer& add_rest(std::string_view bytes) {
+    bytes_.append(bytes);
+    return *this;
+  }
+
   std::string take() { return std::move(bytes_); }
 
  private:

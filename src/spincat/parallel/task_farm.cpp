@@ -321,7 +321,7 @@ void TaskFarm::run(const Job& job, const Tick& tick) {
   Run(*this, job, tick).do_all();
 }
 
-void TaskFarm::share(const std::string& kind, const std::function<std::string()>& context) {
+void TaskFarm::share(const std::string& kind, const Context& context) {
   if (others_.empty()) {
     return;
   }
@@ -331,10 +331,13 @@ void TaskFarm::share(const std::string& kind, const std::function<std::string()>
   }
 }
 
-SharedBytes TaskFarm::start_of(std::uint32_t job, const std::string& kind,
-                               const std::function<std::string()>& context) const {
-  const std::string bytes = context ? context() : std::string();
-  return shared(farm::pack(farm::JobStart{job, requested_threads_, kind, bytes}));
+SharedBytes TaskFarm::start_of(std::uint32_t job, const std::string& kind, const Context& context) const {
+  Packer packer;
+  farm::pack_job_start({job, requested_threads_, kind}, packer);
+  if (context) {
+    context(packer);
+  }
+  return shared(packer.take());
 }
 
 // Learns who a rank is, or that it has gone.

@@ -11,14 +11,18 @@
 #include "spincat/parallel/communicator.h"
 #include "spincat/parallel/farm_report.h"
 #include "spincat/parallel/journal.h"
+#include "spincat/parallel/packing.h"
 #include "spincat/parallel/task.h"
 
 namespace spincat {
 
+// Packs what other ranks need.
+using Context = std::function<void(Packer& packer)>;
+
 // Tasks of one kind.
 struct Job {
   std::string kind;                      // by which other ranks know the work
-  std::function<std::string()> context;  // what they need for it; asked for only where there are any
+  Context context;                       // what they need for it; asked for only where there are any
   Work work;                             // the same work, here
   std::size_t tasks = 0;
   std::function<std::string(std::size_t task)> task;  // what is to be done, as bytes
@@ -63,7 +67,7 @@ class TaskFarm {
   void run(const Job& job, const Tick& tick = {});
 
   // Gives all other ranks something that later jobs need. No tasks.
-  void share(const std::string& kind, const std::function<std::string()>& context);
+  void share(const std::string& kind, const Context& context);
 
   // So far. Waits a moment for ranks that have not even said where they are: jobs may be over before.
   FarmReport report();
@@ -72,7 +76,7 @@ class TaskFarm {
   class Run;
   struct Rank;
 
-  SharedBytes start_of(std::uint32_t job, const std::string& kind, const std::function<std::string()>& context) const;
+  SharedBytes start_of(std::uint32_t job, const std::string& kind, const Context& context) const;
   void greet(Rank& rank, const Message& message);
   void dismiss();
 

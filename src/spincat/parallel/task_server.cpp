@@ -63,7 +63,7 @@ class Server {
   void act_on(const Message& message) {
     switch (message.tag) {
       case farm::kJob:
-        start_job(farm::unpack_job_start(message.bytes));
+        start_job(message.bytes);
         break;
       case farm::kTask: {
         Unpacker fields(message.bytes);
@@ -85,12 +85,14 @@ class Server {
     }
   }
 
-  void start_job(const farm::JobStart& start) {
+  void start_job(std::string_view bytes) {
     crew_.reset();
+    Unpacker fields(bytes);
+    const farm::JobStart start = farm::unpack_job_start(fields);
     job_ = start.job;
     try {
       const int threads = thread_count_(start.threads);
-      crew_ = std::make_unique<ThreadCrew>(factory_(start.kind, start.context), threads);
+      crew_ = std::make_unique<ThreadCrew>(factory_(start.kind, fields.rest()), threads);
       say(farm::kReady, Packer().add(job_).add(static_cast<std::int32_t>(threads)).take());
     } catch (const std::exception& error) {
       say(farm::kRefusal, Packer().add(job_).add(std::string_view(error.what())).take());

@@ -75,7 +75,7 @@ void classify_files(TaskFarm& farm, const ClassifyJob& job, const std::function<
   }
   Job tasks;
   tasks.kind = kClassifyTasks;
-  tasks.context = [&] { return job.model_file.string(); };
+  tasks.context = [&](Packer& packer) { packer.add_rest(job.model_file.string()); };
   tasks.work = [&](std::string_view file) { return pack(answer_for(job.model, std::filesystem::path(file))); };
   tasks.tasks = job.files;
   tasks.task = [&](std::size_t i) { return job.file(i).string(); };

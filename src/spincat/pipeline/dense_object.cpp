@@ -28,12 +28,10 @@ struct OwnedObject {
   SpinImageParams params;
 };
 
-std::string pack(const DenseObject& object) {
-  Packer packer;
+void pack(const DenseObject& object, Packer& packer) {
   pack_params(packer, object.params);
   pack_points(packer, object.surface);
   pack_points(packer, object.spin_points);
-  return packer.take();
 }
 
 OwnedObject unpack_object(Unpacker& fields) {
@@ -144,7 +142,7 @@ void make_spin_images(TaskFarm& farm, const DenseObject& object,
   const Runs runs(object, farm.threads_everywhere());
   Job job;
   job.kind = kImagesTasks;
-  job.context = [&] { return pack(object); };
+  job.context = [&](Packer& packer) { pack(object, packer); };
   job.work = [&](std::string_view task) { return images_of(maker, object.spin_points, task); };
   job.tasks = runs.count();
   job.task = [&](std::size_t i) { return runs.task(i); };
@@ -178,7 +176,10 @@ FeatureVector encode_object(TaskFarm& farm, const DenseObject& object, std::stri
   SumsTree sums;
   Job job;
   job.kind = kSumsTasks;
-  job.context = [&] { return Packer().add(encoding_name).take() + pack(object); };
+  job.context = [&](Packer& packer) {
+    packer.add(encoding_name);
+    pack(object, packer);
+  };
   job.work = [&](std::string_view task) { return sums_of(maker, object.spin_points, *object_sums, task); };
   job.tasks = runs.count();
   job.task = [&](std::size_t i) { return runs.task(i); };

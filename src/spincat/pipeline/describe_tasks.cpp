@@ -115,7 +115,7 @@ void describe_files(TaskFarm& farm, const DescribeJob& job,
   }
   Job tasks;
   tasks.kind = kDescribeTasks;
-  tasks.context = [&] { return Packer().add(job.views).add(settings_to_json(job.settings).dump()).take(); };
+  tasks.context = [&](Packer& packer) { packer.add(job.views).add(settings_to_json(job.settings).dump()); };
   tasks.work = describe_work(job.settings, job.views);
   tasks.tasks = job.files;
   tasks.task = [&](std::size_t i) { return job.file(i).string(); };

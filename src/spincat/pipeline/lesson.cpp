@@ -76,8 +76,14 @@ std::vector<Judge> Lesson::teach(std::span<const CategoryPair> pairs) const {
   return judges;
 }
 
-JudgeList Lesson::list(std::span<const Judge> judges, int threads) const {
-  JudgeList list = training_->list(judges, threads);
+JudgeList Lesson::unfilled_list(std::size_t judges) const {
+  JudgeList list = training_->unfilled_list(judges);
+  list.codebook = codebook_;
+  return list;
+}
+
+JudgeList Lesson::list(std::span<const Judge> judges) const {
+  JudgeList list = training_->list(judges);
   list.codebook = codebook_;
   return list;
 }

@@ -31,8 +31,14 @@ class Lesson {
   // The judges of the given pairs.
   std::vector<Judge> teach(std::span<const CategoryPair> pairs) const;
 
+  // Whether judges can do without their support vectors: those of a linear kernel.
+  bool folds() const { return settings_.kernel == KernelKind::linear; }
+  // Precondition of both: it folds.
+  FoldedJudge fold(const Judge& judge) const { return training_->fold(judge); }
+  JudgeList unfilled_list(std::size_t judges) const;
+
   // All judges, put together.
-  JudgeList list(std::span<const Judge> judges, int threads = 1) const;
+  JudgeList list(std::span<const Judge> judges) const;
 
   // What some judges say of other objects of the table: a row for each object, or for each of its
   // views.

@@ -44,6 +44,21 @@ Judge unpack_judge(Unpacker& fields) {
   return judge;
 }
 
+void pack_folded(Packer& packer, const FoldedJudge& judge) {
+  const auto& [weights, bias, support_vectors] = judge;
+  packer.add(bias).add(support_vectors);
+  packer.add(std::span<const float>(weights.data(), static_cast<std::size_t>(weights.size())));
+}
+
+FoldedJudge unpack_folded(Unpacker& fields) {
+  FoldedJudge judge;
+  judge.bias = fields.get<float>();
+  judge.support_vectors = fields.get<std::uint32_t>();
+  const std::vector<float> weights = fields.get_values<float>();
+  judge.weights = Eigen::Map<const Eigen::RowVectorXf>(weights.data(), static_cast<Eigen::Index>(weights.size()));
+  return judge;
+}
+
 // Lessons that are made when they are first needed.
 class Lessons {
  public:
@@ -83,29 +98,31 @@ std::string do_judges(Lessons& lessons, std::string_view bytes) {
   const std::vector<Judge> judges = lesson.teach(std::span(pairs).subspan(first, last - first));
   Packer packer;
   const std::vector<std::uint32_t>& judged = lessons.plan(number).judged;
-  if (judged.empty()) {
-    for (const Judge& judge : judges) {
-      pack_judge(packer, judge);
-    }
+  if (!judged.empty()) {
+    pack_matrix(packer, lesson.margins(judges, judged));
     return packer.take();
   }
-  pack_matrix(packer, lesson.margins(judges, judged));
+  for (const Judge& judge : judges) {
+    if (lesson.folds()) {
+      pack_folded(packer, lesson.fold(judge));
+    } else {
+      pack_judge(packer, judge);
+    }
+  }
   return packer.take();
 }
 
 }  // namespace
 
-std::string pack_table(const FeatureTable& table) {
+void pack_table(const FeatureTable& table, Packer& packer) {
   const auto& [objects, categories, skipped, features, blocks, local_size, words, seed, rows_per_object, tested_rows,
                parts, encoding, kinds, seconds] = table;           // does not compile when a member is forgotten
   static_cast<void>(std::tie(skipped, encoding, kinds, seconds));  // not for other ranks
-  Packer packer;
   packer.add(static_cast<std::uint32_t>(categories.size()));
   const std::vector<std::uint32_t> labels = table.object_labels();
   packer.add(std::span<const std::uint32_t>(labels)).add(std::span<const std::uint32_t>(blocks));
   packer.add(local_size).add(words).add(seed).add(rows_per_object).add(tested_rows).add(parts);
   pack_matrix(packer, features);
-  return packer.take();
 }
 
 FeatureTable unpack_table(Unpacker& fields) {
@@ -125,13 +142,11 @@ FeatureTable unpack_table(Unpacker& fields) {
   return table;
 }
 
-std::string pack_gram(const SharedGram& gram) {
-  Packer packer;
+void pack_gram(const SharedGram& gram, Packer& packer) {
   packer.add(static_cast<std::uint32_t>(gram.blocks.size()));
   for (const Eigen::MatrixXf& block : gram.blocks) {
     pack_matrix(packer, block);
   }
-  return packer.take();
 }
 
 SharedGram unpack_gram(Unpacker& fields) {
@@ -194,6 +209,13 @@ std::string pack(const JudgesTask& task) {
   return Packer().add(task.lesson).add(task.first).add(task.last).take();
 }
 
+void put_folded(std::string_view result, std::uint32_t first, JudgeList& list) {
+  Unpacker fields(result);
+  for (std::size_t l = first; !fields.empty(); ++l) {
+    list.put(l, unpack_folded(fields));
+  }
+}
+
 std::vector<Judge> unpack_judges(std::string_view result) {
   std::vector<Judge> judges;
   Unpacker fields(result);
@@ -212,14 +234,12 @@ FeatureMatrix unpack_margins(std::string_view result, std::size_t objects) {
   return margins;
 }
 
-std::string pack_lessons(const JudgeSettings& settings, std::span<const LessonPlan> lessons) {
+void pack_lessons(const JudgeSettings& settings, std::span<const LessonPlan> lessons, Packer& packer) {
   const auto& [kernel, c, class_weights] = settings;
-  Packer packer;
   packer.add(kernel).add(c).add(class_weights);
   for (const auto& [taught, judged] : lessons) {
     packer.add(std::span<const std::uint32_t>(taught)).add(std::span<const std::uint32_t>(judged));
   }
-  return packer.take();
 }
 
 Work judges_work(const FeatureTable& table, const SharedGram& gram, const JudgeSettings& settings,

@@ -24,9 +24,9 @@ struct KeptData {
 };
 
 // Sent once, kept by the others. Of objects only their categories are.
-std::string pack_table(const FeatureTable& table);
+void pack_table(const FeatureTable& table, Packer& packer);
 FeatureTable unpack_table(Unpacker& fields);
-std::string pack_gram(const SharedGram& gram);
+void pack_gram(const SharedGram& gram, Packer& packer);
 SharedGram unpack_gram(Unpacker& fields);
 
 // One strip of one of the matrices of a SharedGram.
@@ -57,10 +57,13 @@ struct JudgesTask {
 
 std::vector<JudgesTask> judges_tasks(const FeatureTable& table, KernelKind kind, std::span<const LessonPlan> lessons);
 std::string pack(const JudgesTask& task);
+// Of a lesson that folds: puts the judges into `list`, from judge `first` on.
+void put_folded(std::string_view result, std::uint32_t first, JudgeList& list);
+// Of one that does not.
 std::vector<Judge> unpack_judges(std::string_view result);
 // Margins of the judged objects: a row for each of `objects` (or of their views), a column for each judge of the task.
 FeatureMatrix unpack_margins(std::string_view result, std::size_t objects);
-std::string pack_lessons(const JudgeSettings& settings, std::span<const LessonPlan> lessons);
+void pack_lessons(const JudgeSettings& settings, std::span<const LessonPlan> lessons, Packer& packer);
 // The lessons' common parts are made when their first task comes.
 Work judges_work(const FeatureTable& table, const SharedGram& gram, const JudgeSettings& settings,
                  std::vector<LessonPlan> lessons);

@@ -2,20 +2,18 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "spincat/dataset/splits.h"
-#include "spincat/geometry/random.h"
+#include "spincat/pipeline/calibration_folds.h"
 #include "spincat/pipeline/lesson.h"
 #include "spincat/pipeline/task_kinds.h"
 #include "spincat/pipeline/teach_tasks.h"
 
 namespace spincat {
 namespace {
-
-constexpr std::uint64_t kCalibrationPurpose = 100;  // of derive_seed
-constexpr int kFolds = 5;                           // of a calibration
 
 // Whether the other ranks save more time than sending them the table takes. Rough: a core does 10^10 products a second,
 // and 10^9 bytes a second leave this process.
@@ -28,65 +26,37 @@ bool pays_to_share(const FeatureTable& table, const TeachingPlan& plan, const Ta
   const auto categories = static_cast<double>(table.categories.size());
   const auto objects = static_cast<double>(table.objects.size());
   const double gram = 0.5 * rows * rows * length;
-  const double lesson = length * categories * (rows + 0.5 * categories * objects / kFolds);
+  const double lesson = length * categories * (rows + 0.5 * categories * objects / kCalibrationFolds);
   const double seconds_here = (gram + static_cast<double>(plan.lessons) * lesson) / 1e10 / farm.threads();
   const double bytes = 4.0 * (rows * length + rows * rows);
   const double seconds_sending = bytes * (farm.ranks() - 1) / 1e9;
   return 0.5 * seconds_here > seconds_sending;
 }
 
-// Objects of the fold, as indices into the table instead of into `objects`.
-std::vector<std::uint32_t> picked(std::span<const std::uint32_t> objects, std::span<const std::uint32_t> indices) {
-  std::vector<std::uint32_t> result;
-  result.reserve(indices.size());
-  for (const std::uint32_t i : indices) {
-    result.push_back(objects[i]);
+// The judges of a lesson, as they come, in their order.
+class JudgeCollector {
+ public:
+  JudgeCollector(const Lesson& lesson, std::size_t categories) : lesson_(lesson) {
+    if (lesson.folds()) {
+      list_ = lesson.unfilled_list(categories * (categories - 1) / 2);
+    }
   }
-  return result;
-}
 
-// The folds of a calibration. A category's only object is taught on in all of them.
-std::vector<LessonPlan> calibration_lessons(const FeatureTable& table, std::span<const std::uint32_t> objects,
-                                            std::uint64_t seed) {
-  std::vector<std::uint32_t> labels;
-  std::vector<std::size_t> in_category(table.categories.size(), 0);
-  for (const std::uint32_t object : objects) {
-    labels.push_back(table.objects[object].category);
-    ++in_category[labels.back()];
-  }
-  std::vector<LessonPlan> lessons;
-  for (Split& fold : stratified_folds(labels, kFolds, derive_seed(seed, kCalibrationPurpose))) {
-    std::vector<std::uint32_t> judged;
-    for (const std::uint32_t i : fold.test) {
-      (in_category[labels[i]] > 1 ? judged : fold.train).push_back(i);
-    }
-    std::ranges::sort(fold.train);
-    if (!judged.empty()) {
-      lessons.push_back({picked(objects, fold.train), picked(objects, judged)});
+  void add(const JudgesTask& task, std::string_view result) {
+    if (lesson_.folds()) {
+      put_folded(result, task.first, list_);
+    } else {
+      std::ranges::move(unpack_judges(result), std::back_inserter(judges_));
     }
   }
-  return lessons;
-}
 
-// Right and wrong votes of the judges of a fold, and their votes on the same objects as strangers.
-void count_fold(const FeatureTable& table, const LessonPlan& lesson, const FeatureMatrix& margins,
-                std::vector<JudgedObject>& votes, std::vector<JudgedObject>& strangers) {
-  const auto categories = static_cast<std::uint32_t>(table.categories.size());
-  const Familiarity familiarity = familiarity_of(table, lesson.taught);
-  for (std::size_t i = 0; i < lesson.judged.size() * table.tested_rows; ++i) {
-    const std::uint32_t object = lesson.judged[i / table.tested_rows];
-    const std::span<const float> features =
-        table.features_of(object, static_cast<std::uint32_t>(i % table.tested_rows));
-    const std::uint32_t truth = table.objects[object].category;
-    const auto row = static_cast<Eigen::Index>(i);
-    const Ballot ballot = count_votes(categories, {margins.row(row).data(), static_cast<std::size_t>(margins.cols())});
-    votes.push_back({ballot.weakest_margin, ballot.winner == truth, familiarity.of(features, ballot.winner)});
-    if (categories > 2) {
-      const Ballot as_stranger = ballot_without(ballot, truth);
-      strangers.push_back({as_stranger.weakest_margin, false, familiarity.of(features, as_stranger.winner)});
-    }
-  }
-}
+  JudgeList take() { return lesson_.folds() ? std::move(list_) : lesson_.list(judges_); }
+
+ private:
+  const Lesson& lesson_;
+  JudgeList list_;             // where the lesson folds
+  std::vector<Judge> judges_;  // where it does not
+};
 
 TaskFarm::Tick telling(const Progress& progress, const char* stage, std::size_t tasks) {
   return [&progress, stage, tasks](std::size_t done) {
@@ -103,7 +73,7 @@ Teacher::Teacher(const FeatureTable& table, const JudgeSettings& settings, TaskF
     : table_(table), settings_(settings), farm_(&farm) {
   const bool shared = pays_to_share(table, plan, farm);
   if (shared) {
-    farm.share(kTableTasks, [&] { return pack_table(table); });
+    farm.share(kTableTasks, [&](Packer& packer) { pack_table(table, packer); });
   } else if (farm.ranks() > 1) {
     farm_ = &own_.emplace(farm.threads()).farm();
   }
@@ -112,7 +82,7 @@ Teacher::Teacher(const FeatureTable& table, const JudgeSettings& settings, TaskF
     compute_gram(progress);
   }
   if (shared) {
-    farm.share(kGramKeepingTasks, [&] { return pack_gram(own_gram_); });
+    farm.share(kGramKeepingTasks, [&](Packer& packer) { pack_gram(own_gram_, packer); });
   }
 }
 
@@ -129,7 +99,7 @@ void Teacher::compute_gram(const Progress& progress) {
   Job job;
   job.kind = kGramTasks;
   job.in_journal = false;
-  job.context = [&] { return Packer().add(settings_.kernel).take(); };
+  job.context = [&](Packer& packer) { packer.add(settings_.kernel); };
   job.work = gram_work(table_, settings_.kernel);
   job.tasks = tasks.size();
   job.task = [&](std::size_t i) { return pack(tasks[i]); };
@@ -139,71 +109,40 @@ void Teacher::compute_gram(const Progress& progress) {
 
 JudgeList Teacher::teach(std::span<const std::uint32_t> objects, const Progress& progress) {
   const std::vector<LessonPlan> lessons = {{{objects.begin(), objects.end()}, {}}};
-  const std::vector<JudgesTask> tasks = judges_tasks(table_, settings_.kernel, lessons);
-  std::vector<Judge> judges;
-  Job job;
-  job.kind = kJudgesTasks;
-  job.in_journal = false;
-  job.context = [&] { return pack_lessons(settings_, lessons); };
-  job.work = judges_work(table_, *gram_, settings_, lessons);
-  job.tasks = tasks.size();
-  job.task = [&](std::size_t i) { return pack(tasks[i]); };
-  job.deliver = [&](std::size_t, const std::string& result) {
-    std::ranges::move(unpack_judges(result), std::back_inserter(judges));
-  };
-  farm_->run(job, telling(progress, "teaching judges", tasks.size()));
-  return Lesson(table_, *gram_, objects, settings_).list(judges, farm_->threads());
+  return do_lessons(lessons, progress).judges;
 }
 
-Calibration Teacher::calibrate(std::span<const std::uint32_t> objects, std::uint64_t seed, const Progress& progress) {
-  if (objects.size() < static_cast<std::size_t>(kFolds)) {
-    return {};
-  }
-  const std::vector<LessonPlan> lessons = calibration_lessons(table_, objects, seed);
+CalibratedJudges Teacher::teach_calibrated(std::span<const std::uint32_t> objects, std::uint64_t seed,
+                                           const Progress& progress) {
+  std::vector<LessonPlan> lessons = {{{objects.begin(), objects.end()}, {}}};
+  std::ranges::move(calibration_folds(table_, objects, seed), std::back_inserter(lessons));
+  return do_lessons(lessons, progress);
+}
+
+// The first lesson's judges are wanted, of the others their margins. All are one job: so nobody waits between them.
+CalibratedJudges Teacher::do_lessons(std::span<const LessonPlan> lessons, const Progress& progress) {
   const std::vector<JudgesTask> tasks = judges_tasks(table_, settings_.kernel, lessons);
-  std::vector<JudgedObject> votes;
-  std::vector<JudgedObject> strangers;
-  FeatureMatrix margins;
+  const Lesson lesson(table_, *gram_, lessons[0].taught, settings_);
+  JudgeCollector judges(lesson, table_.categories.size());
+  FoldCounter folds(table_);
   Job job;
   job.kind = kJudgesTasks;
   job.in_journal = false;
-  job.context = [&] { return pack_lessons(settings_, lessons); };
-  job.work = judges_work(table_, *gram_, settings_, lessons);
+  job.context = [&](Packer& packer) { pack_lessons(settings_, lessons, packer); };
+  job.work = judges_work(table_, *gram_, settings_, {lessons.begin(), lessons.end()});
   job.tasks = tasks.size();
   job.task = [&](std::size_t i) { return pack(tasks[i]); };
   job.deliver = [&](std::size_t i, const std::string& result) {
-    const auto& [number, first, last] = tasks[i];
-    const LessonPlan& lesson = lessons[number];
-    const FeatureMatrix part = unpack_margins(result, lesson.judged.size() * table_.tested_rows);
-    margins.conservativeResize(part.rows(), last);
-    margins.rightCols(last - first) = part;
-    if (i + 1 == tasks.size() || tasks[i + 1].lesson != number) {
-      count_fold(table_, lesson, margins, votes, strangers);
-      margins.resize(0, 0);
+    const LessonPlan& plan = lessons[tasks[i].lesson];
+    if (plan.judged.empty()) {
+      judges.add(tasks[i], result);
+    } else {
+      const bool is_last = i + 1 == tasks.size() || tasks[i + 1].lesson != tasks[i].lesson;
+      folds.add(plan, tasks[i], result, is_last);
     }
   };
-  farm_->run(job, telling(progress, "calibrating", tasks.size()));
-  return fit_calibration(votes, strangers);
-}
-
-Familiarity familiarity_of(const FeatureTable& table, std::span<const std::uint32_t> objects) {
-  if (table.local_size > 0) {
-    return {};  // local features are compared by the words of a codebook alone
-  }
-  const Eigen::Index length = table.features.cols() / table.parts;
-  constexpr std::uint32_t kMostViews = 4;  // of an object: more cost each vote time and tell hardly more
-  const std::uint32_t views = std::min(table.tested_rows, kMostViews);
-  FeatureMatrix features(static_cast<Eigen::Index>(objects.size() * views), length);
-  std::vector<std::uint32_t> labels;
-  for (const std::uint32_t object : objects) {
-    for (std::uint32_t view = 0; view < views; ++view) {
-      features.row(static_cast<Eigen::Index>(labels.size())) =
-          table.features.row(static_cast<Eigen::Index>(object) * table.rows_per_object + view).head(length);
-      labels.push_back(table.objects[object].category);
-    }
-  }
-  return make_familiarity(std::move(features), std::move(labels), static_cast<std::uint32_t>(table.categories.size()),
-                          views);
+  farm_->run(job, telling(progress, "teaching judges", tasks.size()));
+  return {judges.take(), folds.calibration()};
 }
 
 }  // namespace spincat

@@ -7,7 +7,6 @@
 #include <span>
 
 #include "spincat/judge/calibration.h"
-#include "spincat/judge/familiarity.h"
 #include "spincat/judge/judge_list.h"
 #include "spincat/parallel/task_farm.h"
 #include "spincat/pipeline/feature_table.h"
@@ -15,9 +14,17 @@
 
 namespace spincat {
 
+struct LessonPlan;
+
 // How many trainings a teacher is made for: decides whether it pays to give other ranks the table.
 struct TeachingPlan {
   std::size_t lessons = 1;
+};
+
+// Judges, and how far their votes can be trusted.
+struct CalibratedJudges {
+  JudgeList judges;
+  Calibration calibration;
 };
 
 // Teaches on a table of features. The inner products of all its rows, which every judge needs, are computed once. Pairs
@@ -45,13 +52,16 @@ class Teacher {
   // Precondition: every category has an object among them.
   JudgeList teach(std::span<const std::uint32_t> objects, const Progress& progress = {});
 
-  // Calibrates the confidence by five-fold cross-validation on the given objects alone: each (by all of its views,
-  // where it is shown by views) is judged by judges that were taught on the others, and once more as a stranger,
-  // without the judges that know its category. Categories with a single object are always taught on and never judged.
-  Calibration calibrate(std::span<const std::uint32_t> objects, std::uint64_t seed, const Progress& progress = {});
+  // The same, and calibrates the confidence by five-fold cross-validation on the given objects alone: each (by all of
+  // its views, where it is shown by views) is judged by judges that were taught on the others, and once more as a
+  // stranger, without the judges that know its category. Categories with a single object are always taught on and never
+  // judged. Fewer than five objects calibrate nothing.
+  CalibratedJudges teach_calibrated(std::span<const std::uint32_t> objects, std::uint64_t seed,
+                                    const Progress& progress = {});
 
  private:
   void compute_gram(const Progress& progress);
+  CalibratedJudges do_lessons(std::span<const LessonPlan> lessons, const Progress& progress);
 
   const FeatureTable& table_;
   const JudgeSettings settings_;
@@ -60,10 +70,5 @@ class Teacher {
   SharedGram own_gram_;
   const SharedGram* gram_ = &own_gram_;
 };
-
-// The given objects as familiarity sees them: the first part of their features (what is seen from outside), without
-// copies (of views the first four): strangers stand out in it more than in all parts together (docs/accuracy.md). Empty
-// where the table has none to compare objects by.
-Familiarity familiarity_of(const FeatureTable& table, std::span<const std::uint32_t> objects);
 
 }  // namespace spincat

@@ -168,9 +168,9 @@ TestTable describe_tested(std::span<const DatasetObject> objects, std::size_t fe
   const std::uint64_t stream = derive_seed(settings.seed, kTestFormPurpose);
   Job job;
   job.kind = kTestedTasks;
-  job.context = [&] {
+  job.context = [&](Packer& packer) {
     const auto& [form, noise, cloud_points] = options;
-    return Packer().add(settings_to_json(settings).dump()).add(form).add(noise).add(cloud_points).take();
+    packer.add(settings_to_json(settings).dump()).add(form).add(noise).add(cloud_points);
   };
   job.work = tested_work(settings, options);
   job.tasks = objects.size();

@@ -1,10 +1,12 @@
 #include "spincat/pipeline/train.h"
 
 #include <numeric>
+#include <utility>
 
 #include "spincat/parallel/task_farm.h"
 #include "spincat/pipeline/feature_table.h"
 #include "spincat/pipeline/stopwatch.h"
+#include "spincat/pipeline/table_familiarity.h"
 #include "spincat/pipeline/teacher.h"
 
 namespace spincat {
@@ -24,9 +26,10 @@ TrainResult train(const Dataset& dataset, const Settings& settings, const TrainO
   Teacher teacher(table, settings.judge, farm, {kLessons}, progress);
   TrainResult result;
   Model& model = result.model;
-  model.judges = teacher.teach(objects, progress);
+  CalibratedJudges taught = teacher.teach_calibrated(objects, settings.seed, progress);
+  model.judges = std::move(taught.judges);
+  model.calibration = taught.calibration;
   model.familiarity = familiarity_of(table, objects);
-  model.calibration = teacher.calibrate(objects, settings.seed, progress);
 
   // Keep what classifying needs to repeat all of this.
   model.settings = settings;

@@ -4,6 +4,7 @@
 
 #include "spincat/parallel/packing.h"
 #include "spincat/pipeline/settings_json.h"
+#include "spincat/pipeline/table_familiarity.h"
 
 namespace spincat {
 namespace {
@@ -97,14 +98,10 @@ Trial run_trial(const EvaluationData& data, Teacher& teacher, const Split& split
                 bool measure_confidence) {
   const FeatureTable& table = data.table;
   const std::size_t n = table.categories.size();
-  const JudgeList judges = teacher.teach(split.train);
-  Calibration calibration;
-  Familiarity familiarity;
-  if (measure_confidence) {
-    familiarity = familiarity_of(table, split.train);
-    calibration = teacher.calibrate(split.train, settings.seed);
-  }
-  const auto confidence = [&](const Ballot& ballot, std::span<const float> features) {
+  const auto [judges, calibration] = measure_confidence ? teacher.teach_calibrated(split.train, settings.seed)
+                                                        : CalibratedJudges{teacher.teach(split.train), {}};
+  const Familiarity familiarity = measure_confidence ? familiarity_of(table, split.train) : Familiarity{};
+  const auto confidence = [&, &calibration = calibration](const Ballot& ballot, std::span<const float> features) {
     return calibration.confidence(ballot, familiarity.of(features, ballot.winner));
   };
   const Tested tested{data};
@@ -159,14 +156,12 @@ Trial unpack_trial(std::string_view result, std::size_t categories) {
   return trial;
 }
 
-std::string pack_trials(const EvaluationData& data, const Settings& settings, bool measure_confidence) {
-  Packer packer;
+void pack_trials(const EvaluationData& data, const Settings& settings, bool measure_confidence, Packer& packer) {
   packer.add(settings_to_json(settings).dump()).add(measure_confidence).add(data.tested.has_value());
   pack_tested(packer, data.strangers);
   if (data.tested) {
     pack_tested(packer, *data.tested);
   }
-  return packer.take();
 }
 
 Work trial_work(const EvaluationData& data, const SharedGram& gram, const Settings& settings, bool measure_confidence) {

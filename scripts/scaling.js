@@ -40,7 +40,8 @@ function chart(study) {
 // The formula of docs/scaling.md with the numbers that were found; terms that the fit left out are not there.
 function formula(model) {
   const number = (value) => Number(value.toPrecision(3));
-  const terms = [[model.constant, ' s'], [model.per_unit, ' s N'], [model.per_work, ' s W / p'], [model.launch, ' s [R > 1]'],
+  const terms = [[model.constant, ' s'], [model.per_unit, ' s N'], [model.per_work, ' s W / p'], [model.per_teaching, ' s V / p'],
+    [model.launch, ' s [R > 1]'],
     [model.per_byte, ' s ((R − 1) sent + (R − 1) / R returned)']];
   return 'T = ' + (terms.filter(([value]) => value > 0).map(([value, rest]) => number(value) + rest).join(' + ') || '0');
 }
@@ -49,7 +50,7 @@ function study(each) {
   const one = each.predicted[0][2];
   return card(each.name, 'Of the largest problem measured, ' + each.problem + '.', chart(each),
     el('pre', { class: 'formula' }, formula(each.model)),
-    el('p', { class: 'soft small' }, 'p workers in R processes; N is what one process does alone, W the work that is shared out, sent and returned bytes (docs/scaling.md). ',
+    el('p', { class: 'soft small' }, 'p workers in R processes; N is what one process does alone, W the work that is shared out, V that of teaching, sent and returned bytes (docs/scaling.md). ',
       'The formula is off by at most ' + shareText(each.model.largest_error) + ' of a measurement.'),
     el('h3', {}, 'Measured'),
     el('div', { class: 'measured' }, pagedTable([['problem', 'number'], ['processes', 'number'], ['threads each', 'number'], ['time', 'number'], ['times as fast', 'number']], each.samples,

@@ -1,6 +1,7 @@
 """Measures, fits and predicts how spincat scales: see scripts/scaling."""
 
 import argparse
+import dataclasses
 import json
 import math
 import os
@@ -27,6 +28,17 @@ LAUNCHERS = {
 HOST_CORES = 16            # one rank a host, a thread a core
 NETWORK_BYTES = 1.0e9      # bytes a second from host to host
 HOST_START = 0.05          # seconds of launching, for each doubling of the hosts
+
+
+@dataclasses.dataclass
+class Size:
+    """What a problem takes."""
+    units: float           # done by one process
+    work: float            # shared out among all
+    sent: float            # bytes to each other process
+    returned: float        # bytes from all that are not the first process
+    teaching: float = 0.0  # shared out, too, where processes are sent the table of features and its inner products:
+    table: float = 0.0     # so many bytes each
 
 
 def log(text):
@@ -103,7 +115,7 @@ def measure(name, arguments, layouts, rounds, mpi):
 
 def least_squares(rows, values):
     """Non-negative least squares of relative errors: terms that would be negative are left out, one by one."""
-    columns = list(range(len(rows[0])))
+    columns = [c for c in range(len(rows[0])) if any(row[c] for row in rows)]
     while True:
         n = len(columns)
         matrix = [[0.0] * (n + 1) for _ in range(n)]
@@ -131,17 +143,18 @@ def least_squares(rows, values):
 
 
 def fit(samples, size_of):
-    """T = sequential + per_unit units + work/p + launch (ranks > 1) + per_rank (ranks - 1) + returned (ranks > 1)
+    """T = constant + per_unit units + (per_work work + per_teaching teaching) / p + launch (ranks > 1) + per_byte bytes
 
-    Samples: (problem, ranks, threads, seconds); size_of gives (units, work, bytes sent to a rank, bytes returned)."""
+    Samples: (problem, ranks, threads, seconds); size_of gives a Size."""
     rows, values = [], []
     for problem, ranks, threads, seconds in samples:
-        units, work, sent, returned = size_of(problem)
+        size = size_of(problem)
         many = ranks > 1
-        rows.append([1.0, units, work / (ranks * threads), float(many),
-                     (sent * (ranks - 1) + returned * (ranks - 1) / ranks) if many else 0.0])
+        moved = (size.sent + size.table) * (ranks - 1) + size.returned * (ranks - 1) / ranks
+        workers = ranks * threads
+        rows.append([1.0, size.units, size.work / workers, size.teaching / workers, float(many), float(moved)])
         values.append(seconds)
-    names = ["constant", "per_unit", "per_work", "launch", "per_byte"]
+    names = ["constant", "per_unit", "per_work", "per_teaching", "launch", "per_byte"]
     model = dict(zip(names, least_squares(rows, values)))
     errors = [abs(sum(c * x for c, x in zip(model.values(), row)) / value - 1) for row, value in zip(rows, values)]
     model["largest_error"] = max(errors)
@@ -149,11 +162,12 @@ def fit(samples, size_of):
 
 
 def predict(model, size, workers):
-    units, work, sent, returned = size
+    """Teaching stays on the first host: with so many cores there, sending others the table takes longer."""
     hosts = max(1, math.ceil(workers / HOST_CORES))
-    seconds = model["constant"] + model["per_unit"] * units + model["per_work"] * work / workers
+    seconds = (model["constant"] + model["per_unit"] * size.units + model["per_work"] * size.work / workers
+               + model["per_teaching"] * size.teaching / min(workers, HOST_CORES))
     if hosts > 1:
-        bytes_moved = sent * (hosts - 1) + returned * (hosts - 1) / hosts
+        bytes_moved = size.sent * (hosts - 1) + size.returned * (hosts - 1) / hosts
         seconds += model["launch"] + HOST_START * math.log2(hosts) + bytes_moved / NETWORK_BYTES
     return seconds
 
@@ -214,19 +228,28 @@ def study_dense(options, folder):
         for (ranks, threads), seconds in measure(f"{points} points", dense(file, folder), options.layouts, options.rounds,
                                                  options.mpi).items():
             samples.append((points, ranks, threads, seconds))
-    size = lambda n: (n, n * n, 2 * POINT_BYTES * n, IMAGE_BYTES * n)
+    size = lambda n: Size(units=n, work=n * n, sent=2 * POINT_BYTES * n, returned=IMAGE_BYTES * n)
     return "dense object", samples, fit(samples, size), size, max(s[0] for s in samples)
 
 
 def study_training(options, folder):
-    """The number of stretched copies makes the problem larger."""
+    """The number of stretched copies makes the problem larger: describing grows with it, teaching with its square."""
     samples = []
+    objects, features = 0, 0
     for copies in (1, 3, 6):
         arguments = training(options.objects, folder, ["--copies", str(copies)])
         for (ranks, threads), seconds in measure(f"training, {copies} copies", arguments, options.layouts,
                                                  options.rounds, options.mpi).items():
             samples.append((copies + 1, ranks, threads, seconds))
-    size = lambda views: (views, views, 100.0, 20_000.0 * views)
+        model = json.loads(subprocess.run([COMMAND, "info", "--json", str(folder / "out.spincat")], check=True,
+                                          stdout=subprocess.PIPE).stdout)
+        objects, features = sum(model["object_counts"].values()), model["features"]
+
+    def size(views):
+        table = 4 * objects * features * views
+        return Size(units=views, work=views, teaching=views * views, sent=100.0, returned=table,
+                    table=table / 2 + 4 * (objects * views) ** 2)
+
     return "training", samples, fit(samples, size), size, 7
 
 

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <functional>
+#include <map>
 #include <thread>
 #include <vector>
 
@@ -38,19 +39,22 @@ std::string square(std::string_view context, std::string_view task) {
 class Ranks {
  public:
   explicit Ranks(int count, int threads_each = 1, std::function<void()> before_task = {})
-      : wires_(std::make_shared<Wires>(count)), ranks_(wires_, 0) {
-    const auto factory = [before_task](std::string_view kind, std::string_view context) -> Work {
-      if (kind != "square") {
-        throw RunError("not known");
-      }
-      return [before_task, kept = std::string(context)](std::string_view task) {
-        if (before_task) {
-          before_task();
-        }
-        return square(kept, task);
-      };
-    };
+      : wires_(std::make_shared<Wires>(count)), ranks_(wires_, 0), kept_(static_cast<std::size_t>(count)) {
     for (int r = 1; r < count; ++r) {
+      const auto factory = [before_task, &kept = kept_[static_cast<std::size_t>(r)]](std::string_view kind,
+                                                                                   std::string_view context) {
+        if (kind != "square") {
+          throw RunError("not known");
+        }
+        RankWork work = [before_task, ours = std::string(context)](std::string_view task) {
+          if (before_task) {
+            before_task();
+          }
+          return square(ours, task);
+        };
+        work.keep = [&kept](std::size_t task, std::string_view result) { kept[task] = result; };
+        return work;
+      };
       servers_.emplace_back([this, r, factory, threads_each] {
         ThreadCommunicator ranks(wires_, r);
         serve(
@@ -66,11 +70,18 @@ class Ranks {
   }
 
   Communicator& communicator() { return ranks_; }
+  // What a rank was to keep. Wait for the end of the farm first.
+  const std::map<std::size_t, std::string>& kept(int rank) {
+    servers_[static_cast<std::size_t>(rank) - 1].join();
+    servers_[static_cast<std::size_t>(rank) - 1] = std::thread([] {});
+    return kept_[static_cast<std::size_t>(rank)];
+  }
   Wires& wires() { return *wires_; }
 
  private:
   std::shared_ptr<Wires> wires_;
   ThreadCommunicator ranks_;
+  std::vector<std::map<std::size_t, std::string>> kept_;
   std::vector<std::thread> servers_;
 };
 
@@ -253,6 +264,47 @@ TEST(TaskFarm, ARankThatCannotDoTheWorkIsDoneWithout) {
   job.kind = "something else";
   farm.run(job);
   expect_squares(outcome, 50);
+}
+
+TEST(TaskFarm, TellsAllRanksWhatAnyHasFound) {
+  const std::vector<int> numbers = numbers_up_to(100);
+  const test::TempDir dir;
+  for (const int round : {0, 1}) {  // the second time from the journal
+    Ranks others(4, 1, [] { std::this_thread::sleep_for(std::chrono::microseconds(200)); });
+    {
+      Journal journal(dir.path() / "j", {"settings", "data"});
+      Outcome outcome;
+      TaskFarm farm(others.communicator());
+      farm.use_journal(&journal);
+      Job job = squares(numbers, outcome);
+      job.tells_all = [](std::string_view result) { return result.empty() ? std::nullopt : std::optional(true); };
+      farm.run(job);
+      expect_squares(outcome, 100);
+      EXPECT_EQ(farm.report().resumed, round == 0 ? 0U : 100U);
+    }
+    for (const int rank : {1, 2, 3}) {
+      const auto& kept = others.kept(rank);
+      ASSERT_EQ(kept.count(0), 1U) << rank;
+      for (const auto& [task, result] : kept) {
+        EXPECT_EQ(result, fmt::format("={}", task * task));
+      }
+      EXPECT_EQ(kept.size(), 100U) << rank;
+    }
+  }
+}
+
+TEST(TaskFarm, TellsNobodyWhatIsNotWanted) {
+  Ranks others(3);
+  {
+    Outcome outcome;
+    const std::vector<int> numbers = numbers_up_to(50);
+    TaskFarm farm(others.communicator());
+    Job job = squares(numbers, outcome);
+    job.tells_all = [](std::string_view) { return false; };
+    farm.run(job);
+    expect_squares(outcome, 50);
+  }
+  EXPECT_LE(others.kept(1).size() + others.kept(2).size(), 50U);  // each at most what it has found itself
 }
 
 TEST(TaskFarm, GoesOnWhereTheJournalEnds) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "parallel/thread_ranks.h"
+#include "spincat/error.h"
 #include "spincat/geometry/random.h"
 #include "spincat/parallel/task_server.h"
 #include "spincat/pipeline/task_kinds.h"
@@ -111,6 +112,31 @@ TEST_P(Teaching, DoesNotDependOnRanksAndThreads) {
   }
 }
 
+// Ranks that were told the features as they came need no table, and one that was not takes no part.
+TEST(Teaching, RanksUseTheRowsTheyKept) {
+  FeatureTable table = noisy_table(false);
+  for (std::uint32_t i = 0; i < 30; ++i) {
+    table.described_as.push_back(2 * i + 1);  // every other file could not be read
+  }
+  KeptData kept;
+  EXPECT_THROW(make_table_work(packed([&](Packer& packer) { pack_table(table, packer); }), kept), RunError);
+  const std::string context = packed([](Packer& packer) { pack_expected({}, packer); }) + '\0';
+  EXPECT_THROW(make_gram_work(context, kept), RunError);
+  kept.rows.emplace(60, 2);
+  for (std::uint32_t i = 0; i < 30; ++i) {
+    std::vector<FeatureVector> features(2);
+    for (std::uint32_t copy = 0; copy < 2; ++copy) {
+      const auto row = table.features.row(2 * i + copy);
+      features[copy].values.assign(row.data(), row.data() + row.size());
+    }
+    kept.rows->put(table.described_as[i], features);
+  }
+  make_table_work(packed([&](Packer& packer) { pack_table(table, packer); }), kept);
+  EXPECT_EQ(kept.data.table.features, table.features);
+  EXPECT_EQ(kept.data.table.object_labels(), table.object_labels());
+  EXPECT_FALSE(kept.rows);
+}
+
 TEST(Teaching, TinyTablesStayHere) {
   const FeatureTable table = noisy_table(false);
   ServingRanks ranks(2);
@@ -141,7 +167,7 @@ TEST(Trials, AreTheSameFromWhatARankKeeps) {
   KeptData kept;
   make_table_work(packed([&](Packer& packer) { pack_table(data.table, packer); }), kept);
   make_gram_keeping_work(packed([&](Packer& packer) { pack_gram(teacher.gram(), packer); }), kept);
-  const Work work = make_trial_work(packed([&](Packer& packer) { pack_trials(data, settings, true, packer); }), kept);
+  const Work work = make_trial_work(packed([&](Packer& packer) { pack_trials(data, teacher.gram(), settings, true, packer); }), kept);
   const Trial found = unpack_trial(work(pack(split)), 3);
   EXPECT_EQ(found.confusion, expected.confusion);
   EXPECT_EQ(found.named, expected.named);

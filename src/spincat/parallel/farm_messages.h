@@ -22,6 +22,7 @@ enum Tag : int {
   kTask,      // from rank 0: job, task, its bytes
   kResult,    // to rank 0: job, TaskResult
   kBeat,      // to rank 0: still there
+  kTold,      // from rank 0: job, task, the result of another rank
   kEndOfJob,  // from rank 0: job
   kQuit,      // from rank 0
   kBye,       // to rank 0: the last word

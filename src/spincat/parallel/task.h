@@ -1,19 +1,34 @@
 // What a farm does: many tasks of one kind, each bytes in and bytes out.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace spincat {
 
 // Does one task. May be called by several threads at once. What it throws reaches the caller of the farm.
 using Work = std::function<std::string(std::string_view task)>;
 
+// What another rank than 0 does in a job.
+struct RankWork {
+  RankWork() = default;
+  template <class Callable>
+    requires std::convertible_to<Callable, Work>
+  RankWork(Callable its_work) : work(std::move(its_work)) {}  // not explicit: most works keep nothing
+
+  Work work;
+  // Where later work needs the results: takes this rank's own, and those of the others where the job tells them to all
+  // (Job::tells_all). Called by one thread, while others work. A task's result may come twice, and be the same.
+  std::function<void(std::size_t task, std::string_view result)> keep;
+};
+
 // Makes the work of a kind from what all its tasks share; may keep what later work needs. Called once a job on each
 // rank but 0, by one thread.
-using WorkFactory = std::function<Work(std::string_view kind, std::string_view context)>;
+using WorkFactory = std::function<RankWork(std::string_view kind, std::string_view context)>;
 
 // What became of a task.
 struct TaskResult {

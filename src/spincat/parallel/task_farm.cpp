@@ -97,7 +97,7 @@ class TaskFarm::Run {
       }
     }
     farm_.resumed_ += known;
-    started_ = known < job_.tasks && !farm_.others_.empty();
+    started_ = (known < job_.tasks || job_.tells_all) && !farm_.others_.empty();
     if (started_) {
       const SharedBytes start = farm_.start_of(number_, job_.kind, job_.context);
       for (std::size_t r = 0; r < farm_.others_.size(); ++r) {
@@ -178,10 +178,32 @@ class TaskFarm::Run {
       return;
     }
     median_.add(result.seconds);
+    if (result.outcome == TaskResult::Outcome::done) {
+      tell_others(from, result.task, result.bytes);
+    }
     if (journal_ != nullptr && result.outcome == TaskResult::Outcome::done) {
       journal_->add(journal_job_, result.task, result.bytes);
     }
     waiting_.emplace(result.task, std::move(result));
+  }
+
+  // All but the rank that has made it.
+  void tell_others(int from, std::size_t task, std::string_view result) {
+    if (!started_ || !job_.tells_all) {
+      return;
+    }
+    if (!tells_) {
+      tells_ = job_.tells_all(result);
+    }
+    if (!tells_.value_or(false)) {
+      return;
+    }
+    const SharedBytes told = shared(Packer().add(number_).add(std::uint64_t{task}).add_rest(result).take());
+    for (int r = 1; r < farm_.ranks_.size(); ++r) {
+      if (r != from) {
+        farm_.ranks_.send(r, farm::kTold, told);
+      }
+    }
   }
 
   bool deliver() {
@@ -190,7 +212,9 @@ class TaskFarm::Run {
       const std::size_t task = board_.delivered();
       const auto found = waiting_.find(task);
       if (found == waiting_.end()) {
-        job_.deliver(task, journal_->find(journal_job_, task).value_or(""));
+        std::string result = journal_->find(journal_job_, task).value_or("");
+        tell_others(kHere, task, result);
+        job_.deliver(task, std::move(result));
       } else {
         TaskResult result = std::move(found->second);
         waiting_.erase(found);
@@ -289,6 +313,7 @@ class TaskFarm::Run {
   Journal* journal_ = nullptr;  // null where this job is not in one
   std::uint64_t journal_job_ = 0;
   bool started_ = false;  // the others were told
+  std::optional<bool> tells_;  // whether they are told all results
   TaskBoard board_;
   std::map<std::size_t, TaskResult> waiting_;  // for their turn
   std::size_t here_ = 0;                       // tasks that our own threads have

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,10 @@ struct Job {
   std::function<void(std::size_t task, std::string result)>
       deliver;             // on the calling thread, in the order of the tasks
   bool in_journal = true;  // false where results are large, or soon computed again
+  // Whether all ranks are to be told all results, as they come (RankWork::keep): every rank that takes part then knows
+  // them before it hears of the next job. Asked with one result after the other until it says so; those for which it
+  // says nothing are not told. Empty: no.
+  std::function<std::optional<bool>(std::string_view result)> tells_all;
 };
 
 // Rank 0's side of the farm; the other ranks serve (task_server.h). A rank that says nothing for longer than the

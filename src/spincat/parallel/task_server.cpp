@@ -74,6 +74,15 @@ class Server {
         }
         break;
       }
+      case farm::kTold: {
+        Unpacker fields(message.bytes);
+        const auto job = fields.get<std::uint32_t>();
+        const auto task = fields.get<std::uint64_t>();
+        if (crew_ && job == job_) {
+          keep(task, fields.rest());
+        }
+        break;
+      }
       case farm::kEndOfJob:
         crew_.reset();
         break;
@@ -92,10 +101,23 @@ class Server {
     job_ = start.job;
     try {
       const int threads = thread_count_(start.threads);
-      crew_ = std::make_unique<ThreadCrew>(factory_(start.kind, fields.rest()), threads);
+      RankWork work = factory_(start.kind, fields.rest());
+      keep_ = std::move(work.keep);
+      crew_ = std::make_unique<ThreadCrew>(std::move(work.work), threads);
       say(farm::kReady, Packer().add(job_).add(static_cast<std::int32_t>(threads)).take());
     } catch (const std::exception& error) {
       say(farm::kRefusal, Packer().add(job_).add(std::string_view(error.what())).take());
+    }
+  }
+
+  // A rank that could not keep a result (no memory) refuses the job that needs it.
+  void keep(std::size_t task, std::string_view result) {
+    try {
+      if (keep_) {
+        keep_(task, result);
+      }
+    } catch (const std::exception&) {
+      keep_ = {};
     }
   }
 
@@ -107,6 +129,9 @@ class Server {
         break;
       }
       answered = true;
+      if (result->outcome == TaskResult::Outcome::done) {
+        keep(result->task, result->bytes);
+      }
       say(farm::kResult, farm::pack(job_, *result));
     }
     return answered;
@@ -144,6 +169,7 @@ class Server {
   const std::function<int(int)>& thread_count_;
   const pid_t parent_;
   std::unique_ptr<ThreadCrew> crew_;  // of the job that is on
+  std::function<void(std::size_t task, std::string_view result)> keep_;
   std::uint32_t job_ = 0;
   bool quit_ = false;
   bool orphan_ = false;

@@ -1,6 +1,7 @@
 #include "spincat/pipeline/describe_tasks.h"
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "spincat/encode/encoding.h"
@@ -10,6 +11,7 @@
 #include "spincat/pipeline/settings_json.h"
 #include "spincat/pipeline/stopwatch.h"
 #include "spincat/pipeline/task_kinds.h"
+#include "spincat/pipeline/teach_tasks.h"
 
 namespace spincat {
 namespace {
@@ -100,10 +102,22 @@ EncodePrepared encode_on(TaskFarm& farm, const Settings& settings, Division divi
   };
 }
 
-Work make_describe_work(std::string_view context) {
+RankWork make_describe_work(std::string_view context, KeptData& kept) {
   Unpacker fields(context);
   const int views = fields.get<int>();
-  return describe_work(settings_from_json(nlohmann::json::parse(fields.get_text())), views);
+  const auto rows_to_keep = fields.get<std::uint64_t>();
+  RankWork result = describe_work(settings_from_json(nlohmann::json::parse(fields.get_text())), views);
+  if (rows_to_keep > 0) {
+    kept = {};
+    kept.rows.emplace(rows_to_keep, static_cast<std::size_t>(views));
+    result.keep = [&kept](std::size_t task, std::string_view described) {
+      const Described object = unpack_described(described);
+      if (!object.features.empty()) {
+        kept.rows->put(task, object.features);
+      }
+    };
+  }
+  return result;
 }
 
 void describe_files(TaskFarm& farm, const DescribeJob& job,
@@ -115,7 +129,19 @@ void describe_files(TaskFarm& farm, const DescribeJob& job,
   }
   Job tasks;
   tasks.kind = kDescribeTasks;
-  tasks.context = [&](Packer& packer) { packer.add(job.views).add(settings_to_json(job.settings).dump()); };
+  tasks.context = [&](Packer& packer) {
+    const std::uint64_t rows_to_keep = job.keeps_rows ? job.files : 0;
+    packer.add(job.views).add(rows_to_keep).add(settings_to_json(job.settings).dump());
+  };
+  if (job.keeps_rows) {
+    tasks.tells_all = [&](std::string_view result) -> std::optional<bool> {
+      const Described described = unpack_described(result);
+      if (described.features.empty()) {
+        return std::nullopt;
+      }
+      return job.keeps_rows(described.features[0].values.size());
+    };
+  }
   tasks.work = describe_work(job.settings, job.views);
   tasks.tasks = job.files;
   tasks.task = [&](std::size_t i) { return job.file(i).string(); };

@@ -18,6 +18,8 @@
 
 namespace spincat {
 
+struct KeptData;
+
 // What became of one file.
 struct Described {
   std::vector<FeatureVector> features;  // the object itself and its copies; empty when it could not be read
@@ -37,6 +39,9 @@ struct DescribeJob {
   const Settings& settings;
   int views = 1;  // the object itself and views - 1 training copies
   Division division = Division::sums;
+  // Asked with the length of the first feature vector: whether all ranks keep all of them (KeptData::rows). Not asked
+  // where spin points are shared out. Empty: no.
+  std::function<bool(std::size_t length)> keeps_rows;
 };
 
 // Reads and describes every file and hands the results on in order, on the calling thread. Many objects with few spin
@@ -54,6 +59,6 @@ bool shares_out_points(const Settings& settings, Division division);
 EncodePrepared encode_on(TaskFarm& farm, const Settings& settings, Division division, const TaskFarm::Tick& tick);
 
 // Its work, for other ranks.
-Work make_describe_work(std::string_view context);
+RankWork make_describe_work(std::string_view context, KeptData& kept);
 
 }  // namespace spincat

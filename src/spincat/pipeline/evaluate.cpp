@@ -10,6 +10,7 @@
 #include "spincat/pipeline/roc.h"
 #include "spincat/pipeline/stopwatch.h"
 #include "spincat/pipeline/task_kinds.h"
+#include "spincat/pipeline/calibration_folds.h"
 #include "spincat/pipeline/teacher.h"
 #include "spincat/pipeline/trial.h"
 
@@ -68,11 +69,10 @@ std::vector<Split> splits_of(const EvaluationData& data, const Settings& setting
 
 std::vector<Trial> run_trials(const EvaluationData& data, const std::vector<Split>& splits, const Settings& settings,
                               const EvaluateOptions& options, const Progress& progress) {
-  constexpr std::size_t kCalibrationLessons = 5;
   const bool confidence = options.measure_confidence || !options.strangers.empty();
   OwnFarm own(options.threads);
   TaskFarm& farm = options.farm != nullptr ? *options.farm : own.farm();
-  const TeachingPlan plan{splits.size() * (confidence ? 1 + kCalibrationLessons : 1)};
+  const TeachingPlan plan{splits.size() * (confidence ? 1 + kCalibrationFolds : 1)};
   Teacher teacher(data.table, settings.judge, farm, plan, progress);
   std::vector<Trial> trials;
   if (splits.size() == 1) {  // shared out by its judges
@@ -82,7 +82,7 @@ std::vector<Trial> run_trials(const EvaluationData& data, const std::vector<Spli
   Job job;
   job.kind = kTrialTasks;
   job.in_journal = false;  // it would have to know which splits
-  job.context = [&](Packer& packer) { pack_trials(data, settings, confidence, packer); };
+  job.context = [&](Packer& packer) { pack_trials(data, teacher.gram(), settings, confidence, packer); };
   job.work = trial_work(data, teacher.gram(), settings, confidence);
   job.tasks = splits.size();
   job.task = [&](std::size_t i) { return pack(splits[i]); };

@@ -7,6 +7,7 @@
 #include "spincat/error.h"
 #include "spincat/parallel/task_farm.h"
 #include "spincat/pipeline/evaluate.h"
+#include "spincat/pipeline/sharing.h"
 #include "spincat/pipeline/stopwatch.h"
 
 namespace spincat {
@@ -46,7 +47,7 @@ EvaluationData describe_known(const Dataset& dataset, const Settings& settings, 
   data.dataset = dataset.name;
   OwnFarm own(options.threads);
   TaskFarm& farm = options.farm != nullptr ? *options.farm : own.farm();
-  data.table = describe_dataset(dataset, settings, options.strict, farm, options.division, progress);
+  data.table = describe_dataset(dataset, settings, options.strict, farm, options.division, {}, progress);
   std::vector<DatasetObject> strangers;
   for (const std::filesystem::path& file : options.strangers) {
     strangers.push_back({file, 0, ""});

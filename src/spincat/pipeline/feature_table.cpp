@@ -9,31 +9,37 @@
 
 #include "spincat/error.h"
 #include "spincat/pipeline/describe_tasks.h"
+#include "spincat/pipeline/sharing.h"
+#include "spincat/pipeline/table_rows.h"
 
 namespace spincat {
 namespace {
 
+// What is remembered of each object but for its features, which go into the table's rows at once.
+struct Seen {
+  Described described;  // its feature vectors without their values
+  std::size_t shortest = 0;
+};
+
 // Concatenated images are as many as the spin points: an object with fewer points than the others (a small cloud whose
 // points are not repeated) cannot be compared with them.
-void leave_out_shorter(const Dataset& dataset, bool strict, std::vector<Described>& described) {
-  std::size_t length = 0;
-  for (const Described& object : described) {
-    for (const FeatureVector& features : object.features) {
-      length = std::max(length, features.values.size());
-    }
-  }
-  for (std::size_t i = 0; i < described.size(); ++i) {
-    const auto shorter = std::ranges::find_if(
-        described[i].features, [&](const FeatureVector& features) { return features.values.size() != length; });
-    if (shorter == described[i].features.end()) {
+void leave_out_shorter(const Dataset& dataset, bool strict, std::size_t length, std::vector<Seen>& objects) {
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    auto& [described, shortest] = objects[i];
+    if (described.features.empty() || shortest == length) {
       continue;
     }
-    described[i].problem = fmt::format("gives {} features where others give {}", shorter->values.size(), length);
-    described[i].features.clear();
+    described.problem = fmt::format("gives {} features where others give {}", shortest, length);
+    described.features.clear();
     if (strict) {
-      throw InputError(dataset.objects[i].file.string(), described[i].problem);
+      throw InputError(dataset.objects[i].file.string(), described.problem);
     }
   }
+}
+
+std::size_t length_of_shortest(std::span<const FeatureVector> features) {
+  const auto length = [](const FeatureVector& vector) { return vector.values.size(); };
+  return length(std::ranges::min(features, {}, length));
 }
 
 // Throws when the objects that are left can teach nothing.
@@ -58,8 +64,8 @@ void check_categories(const FeatureTable& table, const std::string& dataset) {
   throw InputError(dataset, problem);
 }
 
-// Moves all described objects into one table, in the order of the data set.
-FeatureTable collect(const Dataset& dataset, std::vector<Described> described, const Settings& settings) {
+// All described objects, in the order of the data set.
+FeatureTable collect(const Dataset& dataset, std::span<const Seen> objects, TableRows rows, const Settings& settings) {
   FeatureTable table;
   table.categories = dataset.categories;
   table.skipped = dataset.skipped;
@@ -68,28 +74,21 @@ FeatureTable collect(const Dataset& dataset, std::vector<Described> described, c
   table.rows_per_object = static_cast<std::uint32_t>(settings.training_rows());
   table.tested_rows = static_cast<std::uint32_t>(settings.tested_rows());
   table.parts = static_cast<std::uint32_t>(settings.parts());
-  Eigen::Index length = 0;
-  for (std::size_t i = 0; i < described.size(); ++i) {
-    table.seconds += described[i].seconds;
-    if (described[i].features.empty()) {
-      table.skipped.push_back({dataset.objects[i].file, described[i].problem});
+  for (std::uint32_t i = 0; i < objects.size(); ++i) {
+    const Described& described = objects[i].described;
+    table.seconds += described.seconds;
+    if (described.features.empty()) {
+      table.skipped.push_back({dataset.objects[i].file, described.problem});
     } else {
       table.objects.push_back(dataset.objects[i]);
-      table.kinds.add(described[i].kind);
-      table.encoding = described[i].features[0].encoding;
-      table.local_size = described[i].features[0].local_size;
-      table.blocks = described[i].features[0].blocks;
-      length = static_cast<Eigen::Index>(described[i].features[0].values.size());
+      table.described_as.push_back(i);
+      table.kinds.add(described.kind);
+      table.encoding = described.features[0].encoding;
+      table.local_size = described.features[0].local_size;
+      table.blocks = described.features[0].blocks;
     }
   }
-  table.features.resize(static_cast<Eigen::Index>(table.objects.size() * table.rows_per_object), length);
-  Eigen::Index row = 0;
-  for (Described& object : described) {
-    for (const FeatureVector& features : object.features) {
-      std::ranges::copy(features.values, table.features.row(row++).data());
-    }
-    object.features = {};  // frees as it goes: both copies together would be twice the memory
-  }
+  table.features = rows.take(table.described_as);
   std::ranges::stable_sort(table.skipped, {}, &SkippedObject::file);
   return table;
 }
@@ -139,28 +138,45 @@ std::span<const float> FeatureTable::features_of(std::uint32_t object, std::uint
 }
 
 FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, bool strict, TaskFarm& farm,
-                              Division division, const Progress& progress) {
+                              Division division, const TeachingPlan& plan, const Progress& progress) {
   settings.validate();
   if (strict && !dataset.skipped.empty()) {
     throw InputError(dataset.skipped.front().file.string(), dataset.skipped.front().reason);
   }
-  std::vector<Described> described(dataset.objects.size());
-  const DescribeJob job{dataset.objects.size(),
-                        [&](std::size_t i) -> const std::filesystem::path& { return dataset.objects[i].file; },
-                        settings, settings.training_rows(), division};
+  const auto rows_each = static_cast<std::size_t>(settings.training_rows());
+  std::vector<Seen> objects(dataset.objects.size());
+  TableRows rows(objects.size(), rows_each);
+  bool all_ranks_keep = false;
+  DescribeJob job{objects.size(), [&](std::size_t i) -> const std::filesystem::path& { return dataset.objects[i].file; },
+                  settings, settings.training_rows(), division, {}};
+  job.keeps_rows = [&](std::size_t length) {
+    all_ranks_keep =
+        pays_to_share({objects.size(), objects.size() * rows_each, length, dataset.categories.size()}, plan, farm);
+    return all_ranks_keep;
+  };
   const auto keep = [&](std::size_t i, Described one) {
     if (strict && one.features.empty()) {
       throw InputError(dataset.objects[i].file.string(), one.problem);
     }
-    described[i] = std::move(one);
+    if (!one.features.empty()) {
+      rows.put(i, one.features);
+      objects[i].shortest = length_of_shortest(one.features);
+    }
+    for (FeatureVector& features : one.features) {
+      features.values = {};
+    }
+    objects[i].described = std::move(one);
   };
   describe_files(farm, job, keep, [&](std::size_t done) {
     if (progress) {
-      progress("describing objects", done, dataset.objects.size());
+      progress("describing objects", done, objects.size());
     }
   });
-  leave_out_shorter(dataset, strict, described);
-  FeatureTable table = collect(dataset, std::move(described), settings);
+  leave_out_shorter(dataset, strict, rows.length(), objects);
+  FeatureTable table = collect(dataset, objects, std::move(rows), settings);
+  if (!all_ranks_keep) {
+    table.described_as.clear();
+  }
   check_categories(table, dataset.name);
   return table;
 }
@@ -168,7 +184,7 @@ FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, 
 FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, bool strict, int threads,
                               const Progress& progress) {
   OwnFarm own(threads);
-  return describe_dataset(dataset, settings, strict, own.farm(), Division::sums, progress);
+  return describe_dataset(dataset, settings, strict, own.farm(), Division::sums, {}, progress);
 }
 
 }  // namespace spincat

@@ -17,6 +17,7 @@
 namespace spincat {
 
 class TaskFarm;
+struct TeachingPlan;
 
 // Objects that could be read, and their features: row i * rows_per_object is object i itself, the rows after it are its
 // training copies; or all rows are views of it.
@@ -35,6 +36,8 @@ struct FeatureTable {
   std::string encoding;
   KindCounts kinds;      // of the objects
   StageSeconds seconds;  // added up over threads
+  std::vector<std::uint32_t> described_as;  // N where all ranks of the farm keep the rows: which objects of the data
+                                            // set these are; else empty
 
   std::vector<std::uint32_t> object_labels() const;  // N
   std::vector<std::uint32_t> object_counts() const;  // n: objects of each category, copies not counted
@@ -46,11 +49,12 @@ struct FeatureTable {
 };
 
 // Reads and describes every object of the data set once, with its copies, on all threads and ranks of the farm. The
-// result does not depend on these, nor on the division.
+// result does not depend on these, nor on the division. Where the plan makes it worth it (sharing.h), other ranks get
+// the features as they come.
 // Objects that cannot be read are left out and listed with their reason; with `strict` the first of them is thrown as
 // an InputError instead. Throws InputError when fewer than two categories are left.
 FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, bool strict, TaskFarm& farm,
-                              Division division, const Progress& progress);
+                              Division division, const TeachingPlan& plan, const Progress& progress);
 
 // The same on so many threads of this process.
 FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, bool strict, int threads,

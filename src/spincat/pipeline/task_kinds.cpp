@@ -17,12 +17,12 @@
 namespace spincat {
 
 WorkFactory pipeline_work() {
-  using Maker = std::function<Work(std::string_view context)>;
+  using Maker = std::function<RankWork(std::string_view context)>;
   const auto kept = std::make_shared<KeptData>();
   const std::map<std::string_view, Maker> makers = {
       {kImagesTasks, make_images_work},
       {kSumsTasks, make_sums_work},
-      {kDescribeTasks, make_describe_work},
+      {kDescribeTasks, [kept](std::string_view context) { return make_describe_work(context, *kept); }},
       {kClassifyTasks, make_classify_work},
       {kTestedTasks, make_tested_work},
       {kTableTasks, [kept](std::string_view context) { return make_table_work(context, *kept); }},
@@ -30,7 +30,7 @@ WorkFactory pipeline_work() {
       {kGramTasks, [kept](std::string_view context) { return make_gram_work(context, *kept); }},
       {kJudgesTasks, [kept](std::string_view context) { return make_judges_work(context, *kept); }},
       {kTrialTasks, [kept](std::string_view context) { return make_trial_work(context, *kept); }}};
-  return [makers](std::string_view kind, std::string_view context) {
+  return [makers](std::string_view kind, std::string_view context) -> RankWork {
     const auto maker = makers.find(kind);
     if (maker == makers.end()) {
       throw RunError(fmt::format("no rank can do '{}'", kind));

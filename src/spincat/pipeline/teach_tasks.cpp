@@ -116,16 +116,21 @@ std::string do_judges(Lessons& lessons, std::string_view bytes) {
 
 void pack_table(const FeatureTable& table, Packer& packer) {
   const auto& [objects, categories, skipped, features, blocks, local_size, words, seed, rows_per_object, tested_rows,
-               parts, encoding, kinds, seconds] = table;           // does not compile when a member is forgotten
+               parts, encoding, kinds, seconds, described_as] = table;  // does not compile when a member is forgotten
   static_cast<void>(std::tie(skipped, encoding, kinds, seconds));  // not for other ranks
   packer.add(static_cast<std::uint32_t>(categories.size()));
   const std::vector<std::uint32_t> labels = table.object_labels();
   packer.add(std::span<const std::uint32_t>(labels)).add(std::span<const std::uint32_t>(blocks));
   packer.add(local_size).add(words).add(seed).add(rows_per_object).add(tested_rows).add(parts);
-  pack_matrix(packer, features);
+  packer.add(std::span<const std::uint32_t>(described_as));
+  if (described_as.empty()) {
+    pack_matrix(packer, features);
+  }
 }
 
-FeatureTable unpack_table(Unpacker& fields) {
+namespace {
+
+FeatureTable unpack_table(Unpacker& fields, std::optional<TableRows> rows) {
   FeatureTable table;
   table.categories.resize(fields.get<std::uint32_t>());
   for (const std::uint32_t label : fields.get_values<std::uint32_t>()) {
@@ -138,9 +143,18 @@ FeatureTable unpack_table(Unpacker& fields) {
   table.rows_per_object = fields.get<std::uint32_t>();
   table.tested_rows = fields.get<std::uint32_t>();
   table.parts = fields.get<std::uint32_t>();
-  table.features = unpack_matrix<FeatureMatrix>(fields);
+  table.described_as = fields.get_values<std::uint32_t>();
+  if (table.described_as.empty()) {
+    table.features = unpack_matrix<FeatureMatrix>(fields);
+  } else if (rows) {
+    table.features = rows->take(table.described_as);
+  } else {
+    throw RunError("the rows of a feature table are not there");
+  }
   return table;
 }
+
+}  // namespace
 
 void pack_gram(const SharedGram& gram, Packer& packer) {
   packer.add(static_cast<std::uint32_t>(gram.blocks.size()));
@@ -234,8 +248,10 @@ FeatureMatrix unpack_margins(std::string_view result, std::size_t objects) {
   return margins;
 }
 
-void pack_lessons(const JudgeSettings& settings, std::span<const LessonPlan> lessons, Packer& packer) {
+void pack_lessons(const SharedGram& gram, const JudgeSettings& settings, std::span<const LessonPlan> lessons,
+                  Packer& packer) {
   const auto& [kernel, c, class_weights] = settings;
+  pack_expected(gram, packer);
   packer.add(kernel).add(c).add(class_weights);
   for (const auto& [taught, judged] : lessons) {
     packer.add(std::span<const std::uint32_t>(taught)).add(std::span<const std::uint32_t>(judged));
@@ -248,10 +264,22 @@ Work judges_work(const FeatureTable& table, const SharedGram& gram, const JudgeS
   return [all](std::string_view task) { return do_judges(*all, task); };
 }
 
+void pack_expected(const SharedGram& gram, Packer& packer) {
+  packer.add(static_cast<std::uint32_t>(gram.blocks.size()));
+}
+
+const KeptData& expected_of(Unpacker& fields, const KeptData& kept) {
+  if (kept.data.table.objects.empty() || kept.gram.blocks.size() != fields.get<std::uint32_t>()) {
+    throw RunError("this rank could not keep what it was given");
+  }
+  return kept;
+}
+
 Work make_table_work(std::string_view context, KeptData& kept) {
   Unpacker fields(context);
+  std::optional<TableRows> rows = std::exchange(kept.rows, std::nullopt);
   kept = {};  // first: both at once may be too much
-  kept.data.table = unpack_table(fields);
+  kept.data.table = unpack_table(fields, std::move(rows));
   return {};
 }
 
@@ -263,11 +291,13 @@ Work make_gram_keeping_work(std::string_view context, KeptData& kept) {
 
 Work make_gram_work(std::string_view context, const KeptData& kept) {
   Unpacker fields(context);
-  return gram_work(kept.data.table, fields.get<KernelKind>());
+  const FeatureTable& table = expected_of(fields, kept).data.table;
+  return gram_work(table, fields.get<KernelKind>());
 }
 
 Work make_judges_work(std::string_view context, const KeptData& kept) {
   Unpacker fields(context);
+  const auto& [rows, data, gram] = expected_of(fields, kept);
   JudgeSettings settings;
   settings.kernel = fields.get<KernelKind>();
   settings.c = fields.get<double>();
@@ -278,7 +308,7 @@ Work make_judges_work(std::string_view context, const KeptData& kept) {
     plan.taught = fields.get_values<std::uint32_t>();
     plan.judged = fields.get_values<std::uint32_t>();
   }
-  return judges_work(kept.data.table, kept.gram, settings, std::move(lessons));
+  return judges_work(data.table, gram, settings, std::move(lessons));
 }
 
 }  // namespace spincat

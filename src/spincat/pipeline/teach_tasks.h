@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,18 +15,19 @@
 #include "spincat/parallel/task.h"
 #include "spincat/pipeline/evaluate.h"
 #include "spincat/pipeline/feature_table.h"
+#include "spincat/pipeline/table_rows.h"
 
 namespace spincat {
 
 // What a rank keeps from one job to the next.
 struct KeptData {
+  std::optional<TableRows> rows;  // of objects that were described, until they are a table
   EvaluationData data;  // the table; the rest where an evaluation is on
   SharedGram gram;
 };
 
-// Sent once, kept by the others. Of objects only their categories are.
+// Sent once, kept by the others: of objects only their categories, and the features only where they do not have them.
 void pack_table(const FeatureTable& table, Packer& packer);
-FeatureTable unpack_table(Unpacker& fields);
 void pack_gram(const SharedGram& gram, Packer& packer);
 SharedGram unpack_gram(Unpacker& fields);
 
@@ -63,10 +65,17 @@ void put_folded(std::string_view result, std::uint32_t first, JudgeList& list);
 std::vector<Judge> unpack_judges(std::string_view result);
 // Margins of the judged objects: a row for each of `objects` (or of their views), a column for each judge of the task.
 FeatureMatrix unpack_margins(std::string_view result, std::size_t objects);
-void pack_lessons(const JudgeSettings& settings, std::span<const LessonPlan> lessons, Packer& packer);
+// `gram` is what the others keep.
+void pack_lessons(const SharedGram& gram, const JudgeSettings& settings, std::span<const LessonPlan> lessons,
+                  Packer& packer);
 // The lessons' common parts are made when their first task comes.
 Work judges_work(const FeatureTable& table, const SharedGram& gram, const JudgeSettings& settings,
                  std::vector<LessonPlan> lessons);
+
+// For a context: by which a rank knows whether it keeps what it should.
+void pack_expected(const SharedGram& gram, Packer& packer);
+// What the rank keeps. Throws RunError when that is not what is expected: it could not keep it.
+const KeptData& expected_of(Unpacker& fields, const KeptData& kept);
 
 // The same works on other ranks, from what they keep.
 Work make_table_work(std::string_view context, KeptData& kept);

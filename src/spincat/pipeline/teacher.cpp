@@ -15,24 +15,6 @@
 namespace spincat {
 namespace {
 
-// Whether the other ranks save more time than sending them the table takes. Rough: a core does 10^10 products a second,
-// and 10^9 bytes a second leave this process.
-bool pays_to_share(const FeatureTable& table, const TeachingPlan& plan, const TaskFarm& farm) {
-  if (farm.ranks() < 2) {
-    return false;
-  }
-  const auto rows = static_cast<double>(table.features.rows());
-  const auto length = static_cast<double>(table.features.cols());
-  const auto categories = static_cast<double>(table.categories.size());
-  const auto objects = static_cast<double>(table.objects.size());
-  const double gram = 0.5 * rows * rows * length;
-  const double lesson = length * categories * (rows + 0.5 * categories * objects / kCalibrationFolds);
-  const double seconds_here = (gram + static_cast<double>(plan.lessons) * lesson) / 1e10 / farm.threads();
-  const double bytes = 4.0 * (rows * length + rows * rows);
-  const double seconds_sending = bytes * (farm.ranks() - 1) / 1e9;
-  return 0.5 * seconds_here > seconds_sending;
-}
-
 // The judges of a lesson, as they come, in their order.
 class JudgeCollector {
  public:
@@ -68,10 +50,12 @@ TaskFarm::Tick telling(const Progress& progress, const char* stage, std::size_t 
 
 }  // namespace
 
-Teacher::Teacher(const FeatureTable& table, const JudgeSettings& settings, TaskFarm& farm, TeachingPlan plan,
+Teacher::Teacher(const FeatureTable& table, const JudgeSettings& settings, TaskFarm& farm, const TeachingPlan& plan,
                  const Progress& progress)
     : table_(table), settings_(settings), farm_(&farm) {
-  const bool shared = pays_to_share(table, plan, farm);
+  const TableSize size{table.objects.size(), static_cast<std::size_t>(table.features.rows()),
+                       static_cast<std::size_t>(table.features.cols()), table.categories.size()};
+  const bool shared = farm.ranks() > 1 && (!table.described_as.empty() || pays_to_share(size, plan, farm));
   if (shared) {
     farm.share(kTableTasks, [&](Packer& packer) { pack_table(table, packer); });
   } else if (farm.ranks() > 1) {
@@ -99,7 +83,10 @@ void Teacher::compute_gram(const Progress& progress) {
   Job job;
   job.kind = kGramTasks;
   job.in_journal = false;
-  job.context = [&](Packer& packer) { packer.add(settings_.kernel); };
+  job.context = [&](Packer& packer) {
+    pack_expected({}, packer);
+    packer.add(settings_.kernel);
+  };
   job.work = gram_work(table_, settings_.kernel);
   job.tasks = tasks.size();
   job.task = [&](std::size_t i) { return pack(tasks[i]); };
@@ -128,7 +115,7 @@ CalibratedJudges Teacher::do_lessons(std::span<const LessonPlan> lessons, const 
   Job job;
   job.kind = kJudgesTasks;
   job.in_journal = false;
-  job.context = [&](Packer& packer) { pack_lessons(settings_, lessons, packer); };
+  job.context = [&](Packer& packer) { pack_lessons(*gram_, settings_, lessons, packer); };
   job.work = judges_work(table_, *gram_, settings_, {lessons.begin(), lessons.end()});
   job.tasks = tasks.size();
   job.task = [&](std::size_t i) { return pack(tasks[i]); };

@@ -11,15 +11,11 @@
 #include "spincat/parallel/task_farm.h"
 #include "spincat/pipeline/feature_table.h"
 #include "spincat/pipeline/progress.h"
+#include "spincat/pipeline/sharing.h"
 
 namespace spincat {
 
 struct LessonPlan;
-
-// How many trainings a teacher is made for: decides whether it pays to give other ranks the table.
-struct TeachingPlan {
-  std::size_t lessons = 1;
-};
 
 // Judges, and how far their votes can be trusted.
 struct CalibratedJudges {
@@ -32,9 +28,9 @@ struct CalibratedJudges {
 // number of threads and ranks.
 class Teacher {
  public:
-  // Gives the other ranks the table where that pays: where sending it takes less time than it saves. What is passed by
+  // Gives the other ranks the table where they do not have it and that pays (sharing.h). What is passed by
   // reference must outlive this object.
-  Teacher(const FeatureTable& table, const JudgeSettings& settings, TaskFarm& farm, TeachingPlan plan,
+  Teacher(const FeatureTable& table, const JudgeSettings& settings, TaskFarm& farm, const TeachingPlan& plan,
           const Progress& progress = {});
   // One that knows the inner products (or that there are none), and works on threads of this process.
   Teacher(const FeatureTable& table, const SharedGram& gram, const JudgeSettings& settings, int threads);

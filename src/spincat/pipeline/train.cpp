@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "spincat/parallel/task_farm.h"
+#include "spincat/pipeline/calibration_folds.h"
 #include "spincat/pipeline/feature_table.h"
 #include "spincat/pipeline/stopwatch.h"
 #include "spincat/pipeline/table_familiarity.h"
@@ -16,14 +17,15 @@ TrainResult train(const Dataset& dataset, const Settings& settings, const TrainO
   // Describe every object and its stretched copies once.
   OwnFarm own(options.threads);
   TaskFarm& farm = options.farm != nullptr ? *options.farm : own.farm();
-  const FeatureTable table = describe_dataset(dataset, settings, options.strict, farm, options.division, progress);
+  const TeachingPlan plan{1 + kCalibrationFolds};  // for the model, and for the folds of its calibration
+  const FeatureTable table =
+      describe_dataset(dataset, settings, options.strict, farm, options.division, plan, progress);
   std::vector<std::uint32_t> objects(table.objects.size());
   std::iota(objects.begin(), objects.end(), 0U);
 
   // Teach a judge for every pair of categories, and find out how far their votes can be trusted.
   Stopwatch watch;
-  constexpr std::size_t kLessons = 6;  // for the model, and for the folds of its calibration
-  Teacher teacher(table, settings.judge, farm, {kLessons}, progress);
+  Teacher teacher(table, settings.judge, farm, plan, progress);
   TrainResult result;
   Model& model = result.model;
   CalibratedJudges taught = teacher.teach_calibrated(objects, settings.seed, progress);

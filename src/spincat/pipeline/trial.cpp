@@ -156,7 +156,9 @@ Trial unpack_trial(std::string_view result, std::size_t categories) {
   return trial;
 }
 
-void pack_trials(const EvaluationData& data, const Settings& settings, bool measure_confidence, Packer& packer) {
+void pack_trials(const EvaluationData& data, const SharedGram& gram, const Settings& settings, bool measure_confidence,
+                 Packer& packer) {
+  pack_expected(gram, packer);
   packer.add(settings_to_json(settings).dump()).add(measure_confidence).add(data.tested.has_value());
   pack_tested(packer, data.strangers);
   if (data.tested) {
@@ -177,6 +179,7 @@ Work trial_work(const EvaluationData& data, const SharedGram& gram, const Settin
 
 Work make_trial_work(std::string_view context, KeptData& kept) {
   Unpacker fields(context);
+  expected_of(fields, kept);
   const Settings settings = settings_from_json(nlohmann::json::parse(fields.get_text()));
   const bool measure_confidence = fields.get<bool>();
   const bool tested = fields.get<bool>();

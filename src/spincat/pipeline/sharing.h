@@ -1,0 +1,25 @@
+// Whether other ranks are worth giving a feature table.
+#pragma once
+
+#include <cstddef>
+
+#include "spincat/parallel/task_farm.h"
+
+namespace spincat {
+
+// What is to be taught on a table.
+struct TeachingPlan {
+  std::size_t lessons = 1;
+};
+
+struct TableSize {
+  std::size_t objects = 0;
+  std::size_t rows = 0;
+  std::size_t length = 0;  // of a row
+  std::size_t categories = 0;
+};
+
+// Whether the other ranks save more time in teaching than sending them the table takes.
+bool pays_to_share(const TableSize& table, const TeachingPlan& plan, const TaskFarm& farm);
+
+}  // namespace spincat

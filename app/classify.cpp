@@ -38,16 +38,18 @@ struct Input {
   std::string problem;
 };
 
-// All object files below a folder, sorted; an input with a problem where there is none or it cannot be read.
+// All object files below a folder, sorted, and an input with a problem for each folder that cannot be read, or where
+// there is no object.
 std::vector<Input> files_below(const fs::path& folder) {
   std::vector<Input> files;
-  std::error_code error;
-  for (const fs::path& file : object_files_below(folder, error)) {
+  std::vector<UnreadFolder> unread;
+  for (const fs::path& file : object_files_below(folder, unread)) {
     files.push_back({file, {}});
   }
-  if (error) {
-    files.push_back({folder, "a folder in it cannot be read: " + error.message()});
-  } else if (files.empty()) {
+  for (const auto& [where, error] : unread) {
+    files.push_back({where, "cannot be read: " + error.message()});
+  }
+  if (files.empty()) {
     files.push_back({folder, "holds no object files"});
   }
   return files;

@@ -12,7 +12,9 @@
 #include <functional>
 #include <memory>
 #include <new>
+#include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -70,6 +72,9 @@ int report_errors(const std::function<int()>& body) {
     return fail(error.what(), 2);
   } catch (const Interrupted& interrupted) {
     return fail("interrupted", 128 + interrupted.signal);
+  } catch (const std::system_error& error) {
+    const bool printing = std::ferror(stdout) != 0;
+    return fail(printing ? "standard output: " + error.code().message() : error.what(), 1);
   } catch (const std::bad_alloc&) {
     return fail("not enough memory", 1);
   } catch (const std::exception& error) {  // RunError, and whatever a library throws

@@ -20,3 +20,24 @@ if(SPINCAT_SANITIZE)
                                                     -fno-omit-frame-pointer)
   target_link_options(spincat_compiler INTERFACE -fsanitize=${SPINCAT_SANITIZE})
 endif()
+
+# What users run defends itself: an overwritten stack or a call into the middle of code ends the process, copies are
+# checked against the size of what they go to, tables of addresses are read-only, code lies at random addresses.
+# docs/reliability.md has the cost, tests/hardening the check.
+if(SPINCAT_HARDEN AND NOT SPINCAT_SANITIZE)
+  include(CheckCXXCompilerFlag)
+  foreach(flag -fstack-protector-strong -fstack-clash-protection -fcf-protection)
+    string(MAKE_C_IDENTIFIER "SPINCAT_HAS${flag}" has)
+    check_cxx_compiler_flag(${flag} ${has})  # the last one is for x86 alone
+    if(${has})
+      target_compile_options(spincat_compiler INTERFACE $<$<CONFIG:Release>:${flag}>)
+    endif()
+  endforeach()
+  # Position-independent as Debian's compiler makes everything, said for others; modules keep their own -fPIC.
+  target_compile_options(spincat_compiler INTERFACE
+    $<$<CONFIG:Release>:-U_FORTIFY_SOURCE> $<$<CONFIG:Release>:-D_FORTIFY_SOURCE=3>
+    $<$<AND:$<CONFIG:Release>,$<NOT:$<STREQUAL:$<TARGET_PROPERTY:TYPE>,MODULE_LIBRARY>>>:-fPIE>)
+  target_link_options(spincat_compiler INTERFACE
+    $<$<CONFIG:Release>:LINKER:-z,relro,-z,now>
+    $<$<AND:$<CONFIG:Release>,$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>>:-pie>)
+endif()

@@ -23,7 +23,8 @@ struct Intrinsics {
   }
 };
 
-// width x height depths along the optical axis in metres, row by row from the top; 0 where nothing was read.
+// width x height depths along the optical axis in metres, row by row from the top; 0 where nothing was read. Finite
+// (readers see to that; the recogniser takes others for not read).
 struct DepthImage {
   int width = 0;
   int height = 0;

@@ -10,16 +10,36 @@ namespace spincat {
 
 namespace fs = std::filesystem;
 
-std::vector<fs::path> object_files_below(const fs::path& folder, std::error_code& error) {
+namespace {
+
+bool names_an_object(const fs::directory_entry& entry) {
+  std::error_code ignored;
+  return is_object_file(entry.path()) && (entry.is_regular_file(ignored) || !entry.exists(ignored));
+}
+
+}  // namespace
+
+std::vector<fs::path> object_files_below(const fs::path& folder, std::vector<UnreadFolder>& unread) {
   std::vector<fs::path> files;
-  error.clear();
-  for (fs::recursive_directory_iterator it(folder, error), end; it != end && !error; it.increment(error)) {
-    std::error_code ignored;
-    if (it->is_regular_file(ignored) && is_object_file(it->path())) {
-      files.push_back(it->path());
+  std::vector<fs::path> folders = {folder};
+  while (!folders.empty()) {
+    const fs::path current = folders.back();
+    folders.pop_back();
+    std::error_code error;
+    for (fs::directory_iterator it(current, error), end; !error && it != end; it.increment(error)) {
+      std::error_code ignored;
+      if (it->symlink_status(ignored).type() == fs::file_type::directory) {
+        folders.push_back(it->path());
+      } else if (names_an_object(*it)) {
+        files.push_back(it->path());
+      }
+    }
+    if (error) {
+      unread.push_back({current, error});
     }
   }
   std::ranges::sort(files);
+  std::ranges::sort(unread, {}, &UnreadFolder::folder);
   return files;
 }
 
@@ -27,9 +47,10 @@ std::vector<fs::path> read_objects(const fs::path& source, const fs::path& model
   std::vector<fs::path> files;
   std::error_code error;
   if (fs::is_directory(source, error)) {
-    files = object_files_below(source, error);
-    if (error) {
-      throw InputError(source.string(), "a folder in it cannot be read: " + error.message());
+    std::vector<UnreadFolder> unread;
+    files = object_files_below(source, unread);
+    if (!unread.empty()) {
+      throw InputError(unread[0].folder.string(), "cannot be read: " + unread[0].error.message());
     }
   } else {
     const CsvTable table = read_csv_table(source);

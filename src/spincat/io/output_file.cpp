@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstddef>
 #include <filesystem>
@@ -13,10 +12,13 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "spincat/error.h"
 #include "spincat/io/file.h"
+#include "spincat/io/file_descriptor.h"
 #include "spincat/io/system_words.h"
+#include "spincat/io/temporary_file.h"
 
 namespace spincat {
 namespace {
@@ -65,17 +67,6 @@ void check_replaceable(const fs::path& file, const fs::path& target) {
     throw RunError(file.string(), "cannot write: " + in_words(errno));
 }
 
-// Creates a file that nobody else has, with the mode that the process gives its files; -1 on failure.
-int create_beside(const fs::path& target, fs::path& name) {
-  static std::atomic<unsigned> counter{0};
-  for (int attempt = 0; attempt < 1000; ++attempt) {
-    name = folder_of(target) / fmt::format(".spincat-{}-{}.tmp", ::getpid(), counter++);
-    const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor >= 0 || errno != EEXIST) return descriptor;
-  }
-  return -1;
-}
-
 // Some file systems cannot flush and say so; that is no reason to fail.
 bool flush_to_disk(int descriptor) {
   return ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS;
@@ -95,7 +86,10 @@ OutputFile::OutputFile(const fs::path& file) : file_(file) {
   } else {
     target_ = follow_links(file);
     check_replaceable(file, target_);
-    descriptor_ = create_beside(target_, temporary_);
+    remove_leftovers(folder_of(target_));
+    fs::path name;
+    descriptor_ = create_temporary(folder_of(target_), name);
+    if (descriptor_ >= 0) temporary_ = name;
   }
   if (descriptor_ < 0) fail();
 }
@@ -114,26 +108,23 @@ void OutputFile::write(std::string_view bytes) {
   }
 }
 
+// The order of a power cut: the bytes are on the disk before the name is theirs, and the name before we say so.
 void OutputFile::commit() {
   const bool renames = !temporary_.empty();
   if (renames) {
     if (const auto old = status_of(target_); old && ::fchmod(descriptor_, old->st_mode & 07777) != 0) fail();
     if (!flush_to_disk(descriptor_)) fail();
   }
+  // The duplicate keeps the lock until the file has its name; without it, it could be taken for a leftover.
+  const FileDescriptor lock(renames ? ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0) : -1);
   // Network file systems tell only on closing that the disk is full.
-  const int descriptor = descriptor_;
-  descriptor_ = -1;
-  if (::close(descriptor) != 0) fail();
+  if (::close(std::exchange(descriptor_, -1)) != 0) fail();
   if (!renames) return;
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail();
   temporary_.clear();
   // Without this a power cut may forget the rename.
-  const int folder = ::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder >= 0) {
-    const bool flushed = flush_to_disk(folder);
-    ::close(folder);
-    if (!flushed) fail();
-  }
+  const FileDescriptor folder(::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (folder.valid() && !flush_to_disk(folder.number())) fail();
 }
 
 void OutputFile::fail() const {

@@ -55,19 +55,30 @@ std::string head_of(const RunIdentity& identity) {
 }  // namespace
 
 Journal::Journal(std::filesystem::path file, const RunIdentity& identity) : file_(std::move(file)) {
-  descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) {
-    fail("cannot write the journal");
-  }
+  open_and_lock();
   try {
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-      throw RunError(file_.string(), "is in use by another run");
-    }
     begin(identity);
   } catch (...) {
     ::close(descriptor_);
     throw;
   }
+}
+
+void Journal::open_and_lock() {
+  struct stat status = {};
+  do {  // again, where another run has finished and removed the file since it was opened
+    if (descriptor_ >= 0) {
+      ::close(descriptor_);
+    }
+    descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) {
+      fail("cannot write the journal");
+    }
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      ::close(descriptor_);
+      throw RunError(file_.string(), "is in use by another run");
+    }
+  } while (::fstat(descriptor_, &status) == 0 && status.st_nlink == 0);
 }
 
 Journal::~Journal() {

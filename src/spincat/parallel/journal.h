@@ -45,6 +45,7 @@ class Journal {
     std::uint64_t length;
   };
 
+  void open_and_lock();
   void begin(const RunIdentity& identity);
   void read_records(std::uint64_t offset, std::uint64_t file_size);
   void write_all(std::string_view bytes, std::uint64_t offset);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "spincat/camera/segment_cloud.h"
@@ -20,6 +21,12 @@ constexpr double kFurthest = 20.0;
 
 constexpr int kStride = 4;                 // every fourth pixel both ways is looked at
 constexpr std::size_t kFewReadings = 300;  // of these
+
+constexpr float kMostDepth = 1e6F;  // metres: what is more, or no number, is no reading
+
+bool is_sound(float depth) {
+  return depth >= 0.0F && depth <= kMostDepth;
+}
 
 struct Readings {
   std::size_t count = 0;
@@ -64,6 +71,15 @@ Recogniser::Recogniser(const Model& model, const RecogniserSettings& settings, i
 }
 
 SeenFrame Recogniser::look(const DepthImage& image, const Intrinsics& intrinsics) {
+  if (std::ranges::all_of(image.depth, is_sound)) {
+    return look_at(image, intrinsics);
+  }
+  DepthImage sound = image;
+  std::ranges::replace_if(sound.depth, std::not_fn(is_sound), 0.0F);
+  return look_at(sound, intrinsics);
+}
+
+SeenFrame Recogniser::look_at(const DepthImage& image, const Intrinsics& intrinsics) {
   SeenFrame frame;
   Stopwatch watch;
   const Readings readings = readings_of(image);

@@ -75,7 +75,8 @@ class Recogniser {
   // Throws InputError when the settings are out of range.
   Recogniser(const Model& model, const RecogniserSettings& settings, int threads);
 
-  // Objects of a frame are named on several threads. Memory does not grow with the number of frames.
+  // Objects of a frame are named on several threads. Memory does not grow with the number of frames. Depths that are
+  // negative, no numbers or more than a million metres count as not read.
   SeenFrame look(const DepthImage& image, const Intrinsics& intrinsics);
 
  private:
@@ -85,6 +86,7 @@ class Recogniser {
     std::vector<double> confidences;
   };
 
+  SeenFrame look_at(const DepthImage& image, const Intrinsics& intrinsics);
   void find_objects(const DepthImage& image, const Intrinsics& intrinsics, SeenFrame& frame);
   void name_object(const DepthImage& image, const Intrinsics& intrinsics, const SeenFrame& frame,
                    SeenObject& object) const;

@@ -2,10 +2,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <string_view>
 #include <utility>
 
 #include "spincat/error.h"
@@ -60,10 +63,29 @@ SweepJournal::SweepJournal(std::filesystem::path file, const Json& identity) : f
   if (file_.empty()) {
     return;
   }
-  std::error_code error;
-  if (std::filesystem::exists(file_, error)) {
-    read(read_file(file_), identity);
+  descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) {
+    throw RunError(file_.string(), fmt::format("cannot write: {}", std::strerror(errno)));
   }
+  try {
+    begin(identity);
+  } catch (...) {
+    close(descriptor_);
+    throw;
+  }
+}
+
+SweepJournal::~SweepJournal() {
+  if (descriptor_ >= 0) {
+    close(descriptor_);
+  }
+}
+
+void SweepJournal::begin(const Json& identity) {
+  if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    throw RunError(file_.string(), "is in use by another sweep");
+  }
+  read(read_file(file_), identity);
   if (whole_ == 0) {
     append(identity.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
   }
@@ -110,15 +132,16 @@ void SweepJournal::add(const SweepPoint& point) {
 }
 
 void SweepJournal::append(const std::string& line) {
-  const int descriptor = open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-  bool good =
-      descriptor >= 0 && ftruncate(descriptor, static_cast<off_t>(whole_)) == 0 &&
-      pwrite(descriptor, line.data(), line.size(), static_cast<off_t>(whole_)) == static_cast<ssize_t>(line.size()) &&
-      fsync(descriptor) == 0;
-  const int reason = errno;
-  good = (descriptor < 0 || close(descriptor) == 0) && good;
-  if (!good) {
-    throw RunError(file_.string(), fmt::format("cannot write: {}", std::strerror(reason)));
+  std::string_view rest = line;
+  bool good = ftruncate(descriptor_, static_cast<off_t>(whole_)) == 0;
+  while (good && !rest.empty()) {
+    const ssize_t written =
+        pwrite(descriptor_, rest.data(), rest.size(), static_cast<off_t>(whole_ + line.size() - rest.size()));
+    good = written >= 0 || errno == EINTR;
+    rest.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(written, 0)));
+  }
+  if (!good || fsync(descriptor_) != 0) {
+    throw RunError(file_.string(), fmt::format("cannot write: {}", std::strerror(errno)));
   }
   whole_ += line.size();
 }

@@ -17,8 +17,12 @@ namespace spincat {
 class SweepJournal {
  public:
   // Reads the journal, or begins one where there is none. No file: nothing is kept. Throws InputError when the file is
-  // the journal of another sweep than `identity` or none at all, RunError when it cannot be written.
+  // the journal of another sweep than `identity` or none at all, RunError when it cannot be written or another sweep is
+  // using it.
   SweepJournal(std::filesystem::path file, const nlohmann::ordered_json& identity);
+  ~SweepJournal();
+  SweepJournal(const SweepJournal&) = delete;
+  SweepJournal& operator=(const SweepJournal&) = delete;
 
   // The point with these values, where it is known.
   const SweepPoint* find(const std::vector<std::string>& values) const;
@@ -27,10 +31,12 @@ class SweepJournal {
   void add(const SweepPoint& point);
 
  private:
+  void begin(const nlohmann::ordered_json& identity);
   void read(const std::string& text, const nlohmann::ordered_json& identity);
   void append(const std::string& line);
 
   std::filesystem::path file_;
+  int descriptor_ = -1;    // locked; -1 without a file
   std::size_t whole_ = 0;  // bytes of whole lines
   std::map<std::vector<std::string>, SweepPoint> points_;
 };

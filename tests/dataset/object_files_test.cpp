@@ -1,0 +1,55 @@
+#include "spincat/dataset/object_files.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "support/temp_dir.h"
+
+namespace spincat {
+namespace {
+
+namespace fs = std::filesystem;
+using Paths = std::vector<fs::path>;
+
+TEST(ObjectFiles, AreFoundInAllFoldersBelow) {
+  const test::TempDir dir;
+  for (const char* name : {"b.off", "deep/er/a.OBJ", "notes.txt", "deep/c.ply"}) {
+    dir.write(name, "");
+  }
+  std::vector<UnreadFolder> unread;
+  EXPECT_EQ(object_files_below(dir.path(), unread), (Paths{dir / "b.off", dir / "deep/c.ply", dir / "deep/er/a.OBJ"}));
+  EXPECT_TRUE(unread.empty());
+}
+
+TEST(ObjectFiles, LostLinksCountButFoldersPipesAndLinksToFoldersDoNot) {
+  const test::TempDir dir;
+  fs::create_symlink("nowhere", dir / "lost.off");
+  fs::create_directories(dir / "folder.off");
+  ASSERT_EQ(::mkfifo((dir / "pipe.off").c_str(), 0600), 0);  // reading it would wait for ever
+  fs::create_symlink(dir.path(), dir / "circle.off");
+  std::vector<UnreadFolder> unread;
+  EXPECT_EQ(object_files_below(dir.path(), unread), Paths{dir / "lost.off"});
+}
+
+TEST(ObjectFiles, AFolderThatCannotBeReadIsToldAndTheOthersAreFound) {
+  const test::TempDir dir;
+  dir.write("a.off", "");
+  std::vector<UnreadFolder> unread;
+  EXPECT_EQ(object_files_below(dir / "absent", unread), Paths{});
+  ASSERT_EQ(unread.size(), 1U);
+  EXPECT_EQ(unread[0].folder, dir / "absent");
+  EXPECT_EQ(unread[0].error, std::errc::no_such_file_or_directory);
+  if (::geteuid() == 0) {
+    return;  // root reads every folder
+  }
+  dir.write("shut/b.off", "");
+  ASSERT_EQ(::chmod((dir / "shut").c_str(), 0), 0);
+  unread.clear();
+  EXPECT_EQ(object_files_below(dir.path(), unread), Paths{dir / "a.off"});
+  EXPECT_EQ(unread.size(), 1U);
+  ::chmod((dir / "shut").c_str(), 0700);
+}
+
+}  // namespace
+}  // namespace spincat

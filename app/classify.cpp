@@ -29,6 +29,7 @@ struct ClassifyArguments {
   std::vector<fs::path> inputs;
   AnswerLook look;
   fs::path report;
+  ReadLimits limits;
   RunOptions run;
 };
 
@@ -135,8 +136,12 @@ Classified classify_all(const Model& model, const std::vector<Input>& inputs, co
       files.push_back(&input.file);
     }
   }
-  const ClassifyJob job{model, arguments.model, files.size(),
-                        [&](std::size_t i) -> const fs::path& { return *files[i]; }, arguments.run.division()};
+  const ClassifyJob job{model,
+                        arguments.model,
+                        files.size(),
+                        [&](std::size_t i) -> const fs::path& { return *files[i]; },
+                        arguments.run.division(),
+                        arguments.limits};
   const auto deliver = [&](std::size_t, const Answer& answer) {
     print_problems();
     print(answer);
@@ -156,7 +161,7 @@ RunIdentity identity_of(const Model& model, const std::vector<Input>& inputs, co
   for (const Input& input : inputs) {
     data.add(input.file);
   }
-  return {settings_identity("classify", model.settings), data.text()};
+  return {settings_identity("classify", model.settings, limits_text(arguments.limits)), data.text()};
 }
 
 int run_classify(const ClassifyArguments& arguments, TaskFarm& farm) {
@@ -167,7 +172,8 @@ int run_classify(const ClassifyArguments& arguments, TaskFarm& farm) {
   check_report(arguments.report);
   const auto [named, failed] = classify_all(model, files, arguments, farm);
   if (!arguments.report.empty()) {
-    write_classify_report(arguments.report, arguments.model, model, named, arguments.look, arguments.run);
+    write_classify_report(arguments.report, arguments.model, model, named, arguments.look, arguments.limits,
+                          arguments.run);
   }
   if (failed > 0 && files.size() > 1 && !arguments.run.quiet) {
     std::fflush(stdout);
@@ -198,6 +204,7 @@ Command add_classify(CLI::App& parent) {
       ->type_name("P");
   command->add_flag("--votes", arguments->look.votes, "Show what every judge said");
   add_report_option(*command, arguments->report);
+  add_limit_options(*command, arguments->limits);
   arguments->run.add_to(*command);
   arguments->run.add_farm_options_to(*command);
   return [arguments](TaskFarm& farm) { return run_classify(*arguments, farm); };

@@ -15,14 +15,15 @@
 namespace spincat::app {
 namespace {
 
-PageObject explained(const Model& model, const NamedFile& named, const PageDetail& detail, const AnswerLook& look) {
+PageObject explained(const Model& model, const NamedFile& named, const PageDetail& detail, const AnswerLook& look,
+                     const ReadLimits& limits) {
   const std::string file = named.file.string();
   if (!named.answer.classification) {
     return page_object_error(file, std::string(without_file(named.answer.error, file)));
   }
   const Classification& found = *named.answer.classification;
   try {
-    const Object object = read_object(named.file);
+    const Object object = read_object(named.file, limits);
     const Evidence evidence = explain(model, object, found.ballot);
     return page_object(file, found, model, object, evidence, detail, look.rejects(found));
   } catch (const Error& error) {  // it was there a moment ago
@@ -36,7 +37,7 @@ PageObject explained(const Model& model, const NamedFile& named, const PageDetai
 
 void write_classify_report(const std::filesystem::path& report, const std::filesystem::path& model_file,
                            const Model& model, const std::vector<NamedFile>& named, const AnswerLook& look,
-                           const RunOptions& run) {
+                           const ReadLimits& limits, const RunOptions& run) {
   const PageDetail detail = page_detail(named.size());
   std::vector<PageObject> objects(named.size());
   {
@@ -44,7 +45,7 @@ void write_classify_report(const std::filesystem::path& report, const std::files
     std::mutex mutex;
     std::size_t done = 0;
     for_each_index(named.size(), run.thread_count(), [&](std::size_t i) {
-      objects[i] = explained(model, named[i], detail, look);
+      objects[i] = explained(model, named[i], detail, look, limits);
       const std::lock_guard lock(mutex);
       bar.update("explaining names", ++done, named.size());
     });

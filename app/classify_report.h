@@ -22,6 +22,6 @@ struct NamedFile {
 // of them. Throws as write_file_atomically does.
 void write_classify_report(const std::filesystem::path& report, const std::filesystem::path& model_file,
                            const Model& model, const std::vector<NamedFile>& named, const AnswerLook& look,
-                           const RunOptions& run);
+                           const ReadLimits& limits, const RunOptions& run);
 
 }  // namespace spincat::app

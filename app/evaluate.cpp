@@ -53,11 +53,18 @@ void check_protocol(const EvaluateArguments& a) {
   }
 }
 
+// The objects of both data sets are read alike.
+DatasetOptions test_options(const EvaluateArguments& a) {
+  DatasetOptions options = a.test_options;
+  options.limits = a.dataset.options.limits;
+  return options;
+}
+
 Evaluation run_protocol(const EvaluateArguments& a, const Settings& settings, const EvaluateOptions& options,
                         const Progress& progress) {
   const DatasetOptions& learn = a.dataset.options;
   if (!a.train.empty()) {
-    return evaluate_across(read_dataset(a.train, learn), read_dataset(a.test, a.test_options), settings, options,
+    return evaluate_across(read_dataset(a.train, learn), read_dataset(a.test, test_options(a)), settings, options,
                            progress);
   }
   const Dataset dataset = read_dataset(a.dataset.sources, learn);
@@ -85,7 +92,7 @@ std::string data_identity(const EvaluateArguments& a) {
       data.add(source);
     }
     if (!sources->empty()) {
-      const DatasetOptions& options = sources == &a.test ? a.test_options : a.dataset.options;
+      const DatasetOptions options = sources == &a.test ? test_options(a) : a.dataset.options;
       for (const DatasetObject& object : read_dataset(*sources, options).objects) {
         data.add(object.file);
       }
@@ -102,11 +109,13 @@ int run_evaluate(const EvaluateArguments& arguments, TaskFarm& farm) {
   const Settings settings = arguments.settings.settings();
   EvaluateOptions options = arguments.options;
   options.test = arguments.tested.options();
+  options.test.limits = arguments.dataset.options.limits;
   options.strict = arguments.dataset.strict;
   FarmRun run(farm, arguments.run);
   run.keep_journal({}, [&] {
-    const auto& [form, noise, cloud_points] = options.test;
-    const std::string shown = fmt::format("{} {} {}", static_cast<int>(form), noise, cloud_points);
+    const TestOptions& test = options.test;
+    const std::string shown = fmt::format("{} {} {} {}", static_cast<int>(test.form), test.noise, test.cloud_points,
+                                          limits_text(test.limits));
     return RunIdentity{settings_identity("evaluate", settings, shown), data_identity(arguments)};
   });
   options.threads = farm.threads();

@@ -23,6 +23,7 @@ struct InfoArguments {
   std::filesystem::path file;
   std::filesystem::path report;
   SettingsArguments settings;
+  ReadLimits limits;
   bool json = false;
   bool quiet = false;
 };
@@ -44,7 +45,7 @@ int run_info(const InfoArguments& arguments) {
   check_report(arguments.report);
   const std::string name = arguments.file.string();
   const Settings settings = arguments.settings.settings();
-  const Object object = read_object(arguments.file);
+  const Object object = read_object(arguments.file, arguments.limits);
   const ObjectFacts facts = facts_of(object);
   if (!arguments.report.empty()) {
     Preparation prepared;
@@ -73,6 +74,7 @@ Command add_info(CLI::App& parent) {
   command->add_flag("--json", arguments->json, "Print JSON for programs");
   command->add_flag("--quiet", arguments->quiet, "No notes on standard error, only errors");
   arguments->settings.add_spin_options_to(*command);
+  add_limit_options(*command, arguments->limits);
   return [arguments](TaskFarm&) { return run_info(*arguments); };
 }
 

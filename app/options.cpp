@@ -112,6 +112,25 @@ void DatasetArguments::add_to(CLI::App& command, bool required) {
                   "A CSV file with the columns class,category: keep these classes, under these names")
       ->type_name("FILE");
   command.add_flag("--strict", strict, "An object that cannot be read is an error, not left out");
+  add_limit_options(command, options.limits);
+}
+
+void add_limit_options(CLI::App& command, ReadLimits& limits) {
+  const auto add = [&](const char* name, std::size_t& limit, std::size_t most, const char* help) {
+    command.add_option(name, limit, help)
+        ->group("Limits while reading")
+        ->check(CLI::Range(std::size_t{1}, most))
+        ->type_name("N")
+        ->capture_default_str();
+  };
+  add("--max-points", limits.max_points, 4'294'967'295, "Points or vertices of an object");
+  add("--max-triangles", limits.max_triangles, 1'000'000'000'000, "Triangles of an object");
+  add("--max-growth", limits.max_growth, 1'000'000,
+      "Bytes of memory for each byte of a file, where it packs or repeats what it holds");
+}
+
+std::string limits_text(const ReadLimits& limits) {
+  return fmt::format("{} {} {}", limits.max_points, limits.max_triangles, limits.max_growth);
 }
 
 void SettingsArguments::add_spin_options_to(CLI::App& command) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "spincat/dataset/dataset.h"
+#include "spincat/io/read_limits.h"
 #include "spincat/pipeline/division.h"
 #include "spincat/pipeline/settings.h"
 
@@ -38,6 +39,12 @@ struct DatasetArguments {
   void add_to(CLI::App& command, bool required = true);
   Dataset read() const { return read_dataset(sources, options); }
 };
+
+// How large an object may be: what read_object refuses otherwise.
+void add_limit_options(CLI::App& command, ReadLimits& limits);
+
+// The limits as text, for the identity of a journal.
+std::string limits_text(const ReadLimits& limits);
 
 // A preset and what the user wants different from it.
 struct SettingsArguments {

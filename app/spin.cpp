@@ -37,6 +37,7 @@ struct SpinArguments {
   SettingsArguments settings;
   std::string convention = "johnson";
   std::string encoding;  // of a feature vector instead of the images; empty: images
+  ReadLimits limits;
   RunOptions run;
   int sheet = 64;
 };
@@ -136,7 +137,7 @@ void write_sheet(const SpinArguments& arguments, const DenseObject& object, int 
 
 Preparation prepared_object(const SpinArguments& arguments, const Settings& settings) {
   try {
-    return prepare_object(read_object(arguments.file), settings);
+    return prepare_object(read_object(arguments.file, arguments.limits), settings);
   } catch (const InputError& error) {
     throw error.file().empty() ? InputError(arguments.file.string(), error.problem()) : error;
   }
@@ -177,7 +178,8 @@ void check_arguments(const SpinArguments& arguments, const Settings& settings) {
 RunIdentity identity_of(const SpinArguments& arguments, const Settings& settings) {
   FilesIdentity data;
   data.add(arguments.file);
-  const std::string more = fmt::format("{} {}", arguments.encoding, arguments.settings.spin_points.has_value());
+  const std::string more = fmt::format("{} {} {}", arguments.encoding, arguments.settings.spin_points.has_value(),
+                                       limits_text(arguments.limits));
   return {settings_identity("spin", settings, more), data.text()};
 }
 
@@ -248,6 +250,7 @@ Command add_spin(CLI::App& parent) {
                    fmt::format("Write one feature vector of all images instead: {}", fmt::join(encoding_names(), ", ")))
       ->type_name("NAME");
   arguments->settings.add_spin_options_to(*command);
+  add_limit_options(*command, arguments->limits);
   arguments->run.add_to(*command);
   arguments->run.add_farm_options_to(*command);
   return [arguments](TaskFarm& farm) { return run_spin(*arguments, farm); };

@@ -62,6 +62,7 @@ int run_sweep(const SweepArguments& arguments, TaskFarm& farm) {
   const Settings settings = arguments.settings.settings();
   EvaluateOptions options = arguments.options;
   options.test = arguments.tested.options();
+  options.test.limits = arguments.dataset.options.limits;
   options.strict = arguments.dataset.strict;
   FarmRun run(farm, arguments.run);  // a sweep keeps a journal of its own
   options.threads = farm.threads();

@@ -55,7 +55,7 @@ int run_train(const TrainArguments& arguments, TaskFarm& farm) {
   const Dataset dataset = dataset_to_learn_from(arguments);
   FarmRun run(farm, arguments.run);
   run.keep_journal(arguments.output, [&] {
-    return RunIdentity{settings_identity("train", settings), identity_of(dataset)};
+    return RunIdentity{settings_identity("train", settings, limits_text(dataset.limits)), identity_of(dataset)};
   });
   Stopwatch watch;
   TrainResult result;

@@ -38,7 +38,13 @@ packages_test=(
   libfreenect-dev  # a Kinect's recording played back
   libopenmpi-dev openmpi-bin pkgconf libmpich-dev mpich  # the command under both makes of MPI
   openssh-server openssh-client iproute2                 # several hosts, as network namespaces
+  strace                                                 # which files reading a model opens
   slurm-wlm munge                                        # and under srun
+)
+
+# For the readers' fuzzing, which is skipped without it.
+packages_fuzz=(
+  clang-16 libclang-rt-16-dev  # libFuzzer and the sanitizers; 40 MB to download, 240 MB installed
 )
 
 # For the test that opens every report in a browser; it is skipped where there is none.

@@ -15,14 +15,16 @@ using Rows = std::vector<std::pair<std::size_t, Fields>>;
 
 Rows parsed(std::string_view text) {
   Rows rows;
-  for (const CsvRow& row : parse_csv(text, "f.csv")) {
-    rows.emplace_back(row.line, row.fields);
+  const std::string file = "f.csv";
+  CsvParser parser(text, file);
+  while (const auto row = parser.next()) {
+    rows.emplace_back(row->line, row->fields);
   }
   return rows;
 }
 
 std::string error_of(std::string_view text) {
-  return input_error([&] { parse_csv(text, "f.csv"); });
+  return input_error([&] { parsed(text); });
 }
 
 TEST(CsvReader, ReadsFieldsWithTheirLines) {
@@ -61,13 +63,22 @@ TEST(CsvReader, RefusesZeroBytes) {
   EXPECT_EQ(error_of("\"\0\""s), "f.csv: line 1: a zero byte: this is no plain text (expected UTF-8)");
 }
 
+TEST(CsvReader, RefusesRowsOfFarTooManyFields) {
+  const std::string most = std::string(999, ',');
+  EXPECT_EQ(parsed("a\n" + most)[1].second.size(), 1'000U);
+  EXPECT_EQ(error_of("a\n" + most + ","), "f.csv: line 2: a row of more than 1000 fields");
+}
+
 TEST(CsvTable, FindsColumnsByName) {
   const test::TempDir dir;
-  const CsvTable table = read_csv_table(dir.write("t.csv", "# note\npath,other,category\na,b,c\n"));
+  CsvTable table(dir.write("t.csv", "# note\npath,other,category\na,b,c\n"));
   EXPECT_EQ(table.column("category"), 2U);
   EXPECT_EQ(table.find_column("split"), std::nullopt);
-  ASSERT_EQ(table.rows.size(), 1U);
-  EXPECT_EQ(table.rows[0].line, 3U);
+  const auto row = table.next();
+  ASSERT_TRUE(row);
+  EXPECT_EQ(row->line, 3U);
+  EXPECT_EQ(table.filled(*row, 2), "c");
+  EXPECT_FALSE(table.next());
 }
 
 TEST(CsvTable, NamesWhatIsWrong) {
@@ -76,8 +87,11 @@ TEST(CsvTable, NamesWhatIsWrong) {
   const auto error = [&](std::string_view text) {
     dir.write("t.csv", text);
     return input_error([&] {
-      const CsvTable table = read_csv_table(file);
-      table.filled(table.rows.at(0), table.column("path"));
+      CsvTable table(file);
+      const std::size_t path = table.column("path");
+      while (const auto row = table.next()) {
+        table.filled(*row, path);
+      }
     });
   };
   EXPECT_EQ(error("# nothing\n"), file + ": is empty (expected a header line that names the columns)");

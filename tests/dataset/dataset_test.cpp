@@ -78,6 +78,23 @@ TEST_F(DatasetTest, TellsWhyNoObjectIsLeft) {
   EXPECT_EQ(error({dir_.write("set.csv", "path,category\n")}), name("set.csv") + ": no object is left");
 }
 
+// A million rows of four bytes would take a gigabyte.
+TEST_F(DatasetTest, RefusesAListThatIsFarLargerInMemory) {
+  std::string rows = "path,category\n";
+  for (int i = 0; i < 1'000'000; ++i) {
+    rows += "a,b\n";
+  }
+  const std::string line = error({dir_.write("set.csv", rows)});
+  EXPECT_TRUE(line.starts_with(name("set.csv") + ": would take ")) << line;
+  EXPECT_TRUE(line.ends_with("bytes and 16 MB; --max-growth raises this limit")) << line;
+}
+
+TEST_F(DatasetTest, ShowsStrangePathsInALine) {
+  EXPECT_EQ(
+      error({dir_.write("set.csv", "path,category\n\"a\nb.off\",table\n")}),
+      name("set.csv") + ": no object is left; 1 skipped, the first is " + name("a\\x0ab.off") + " (no such file)");
+}
+
 // A file that two sources name differently is kept under the name that sorts first, whichever source comes first.
 TEST_F(DatasetTest, MergesSources) {
   dir_.write("x/table/a.off", "");

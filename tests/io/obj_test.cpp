@@ -109,9 +109,9 @@ TEST(Obj, RefusesInWords) {
 
 TEST(Obj, KeepsToTheLimits) {
   const std::string text = corners + "f 1 2 3 4\n";
-  EXPECT_EQ(problem_with("a.obj", text, {.max_points = 3}), "holds more than 3 points, the limit (max_points)");
+  EXPECT_EQ(problem_with("a.obj", text, {.max_points = 3}), "holds more than 3 points; --max-points raises this limit");
   EXPECT_EQ(problem_with("a.obj", text, {.max_triangles = 1}),
-            "holds more than 1 triangles, the limit (max_triangles)");
+            "holds more than 1 triangles; --max-triangles raises this limit");
   test::expect_sound(test::read_bytes("a.obj", text, {.max_points = 4, .max_triangles = 2}));
 }
 

@@ -124,9 +124,9 @@ TEST(Off, ChecksIndicesAndCounts) {
 
 TEST(Off, KeepsToTheLimits) {
   const std::string text = "OFF\n4 1 4\n" + square_body;
-  EXPECT_EQ(problem_with("a.off", text, {.max_points = 3}), "holds more than 3 points, the limit (max_points)");
+  EXPECT_EQ(problem_with("a.off", text, {.max_points = 3}), "holds more than 3 points; --max-points raises this limit");
   EXPECT_EQ(problem_with("a.off", text, {.max_triangles = 1}),
-            "holds more than 1 triangles, the limit (max_triangles)");
+            "holds more than 1 triangles; --max-triangles raises this limit");
   test::expect_sound(test::read_bytes("a.off", text, {.max_points = 4, .max_triangles = 2}));
 }
 

@@ -134,19 +134,29 @@ TEST(Pcd, RefusesInWords) {
   EXPECT_EQ(problem_with("a.pcd", header("FIELDS x y z\nSIZE 2 2 2\nTYPE F F F\n", 1, "binary") + "123456"),
             "field 'x': no floating-point number has 2 bytes");
   EXPECT_EQ(problem_with("a.pcd", header(xyz, 1, "zip")),
-            "unknown data format 'zip'; expected ascii, binary or binary_compressed");
+            "line 11: unknown data format 'zip'; expected ascii, binary or binary_compressed");
   EXPECT_EQ(problem_with("a.pcd", header(xyz, 0, "ascii")), "holds neither a face nor a point");
 }
 
 TEST(Pcd, NoticesMissingPoints) {
-  const std::string announced = "announces 2 points, more than fit into the rest of the file";
-  EXPECT_EQ(problem_with("a.pcd", header(xyz, 2, "ascii") + "0 0 0\n"), announced);
-  EXPECT_EQ(problem_with("a.pcd", header(xyz, 2, "binary") + floats({0, 0, 0})), announced);
-  EXPECT_EQ(problem_with("a.pcd", header(xyz, 2, "binary_compressed") + "1234"), announced);
+  const auto announced = [](int bytes) {
+    return fmt::format("announces 2 points, more than fit into the {} bytes that follow", bytes);
+  };
+  EXPECT_EQ(problem_with("a.pcd", header(xyz, 2, "ascii") + "0 0 0\n"), announced(6));
+  EXPECT_EQ(problem_with("a.pcd", header(xyz, 2, "binary") + floats({0, 0, 0})), announced(12));
+  EXPECT_EQ(problem_with("a.pcd", header(xyz, 2, "binary_compressed") + "1234"), announced(4));
   EXPECT_EQ(problem_with("a.pcd", header(xyz, 2, "ascii") + "0.000 0.000 0.000\n"),
             "line 13: the file ends after 1 of 2 points");
   EXPECT_EQ(problem_with("a.pcd", header(xyz, 2, "ascii") + "0.000 0.000\n0.000 0.000\n"),
             "line 12: expected a number, but the line ends here");
+}
+
+TEST(Pcd, RefusesFarTooManyFields) {
+  std::string fields = "FIELDS x y z";
+  for (int i = 3; i < 1'000; ++i) fields += " a";
+  const std::string rest = "\nPOINTS 0\nDATA ascii\n";
+  EXPECT_EQ(problem_with("a.pcd", fields + rest), "holds neither a face nor a point");
+  EXPECT_EQ(problem_with("a.pcd", fields + " a" + rest), "line 1: more than 1000 fields");
 }
 
 TEST(Pcd, ChecksCompressedSizes) {
@@ -166,7 +176,7 @@ TEST(Pcd, ChecksCompressedSizes) {
 TEST(Pcd, KeepsToTheLimits) {
   for (const std::string data : {"ascii", "binary", "binary_compressed"})
     EXPECT_EQ(problem_with("a.pcd", header(xyz, 2, data), {.max_points = 1}),
-              "holds more than 1 points, the limit (max_points)");
+              "holds more than 1 points; --max-points raises this limit");
 }
 
 TEST(Pcd, SurvivesDamage) {

@@ -178,14 +178,27 @@ TEST(Ply, ChecksBinaryCountsAndIndices) {
   body.replace(12, 4, little(std::numeric_limits<float>::infinity()));
   EXPECT_EQ(problem_with("a.ply", head + body), "vertex 1: a coordinate is not finite");
   EXPECT_EQ(problem_with("a.ply", header("binary_little_endian", "element vertex 18446744073709551\n" + xyz) + body),
-            "holds more than 100000000 points, the limit (max_points)");
+            "holds more than 100000000 points; --max-points raises this limit");
+}
+
+// Each name is compared with all before it: a header of a million elements must not take for ever.
+TEST(Ply, RefusesFarTooManyElements) {
+  std::string text = "ply\nformat ascii 1.0\nelement vertex 1\n" + xyz;
+  for (int i = 1; i < 100; ++i) text += "element e" + std::to_string(i) + " 0\n";
+  EXPECT_EQ(problem_with("a.ply", text + "end_header\n0 0 0\n"), "(nothing thrown)");
+  EXPECT_EQ(problem_with("a.ply", text + "element more 0\nend_header\n0 0 0\n"), "line 106: more than 100 elements");
+}
+
+TEST(Ply, ShowsStrangeNamesInALine) {
+  const std::string text = "ply\nformat ascii 1.0\nelement a\x1B[2J 9\nproperty char x\nend_header\n";
+  EXPECT_EQ(problem_with("a.ply", text), "line 6: announces 9 x a?[2J, more than fit into the rest of the file");
 }
 
 TEST(Ply, KeepsToTheLimits) {
   const std::string text = header("ascii", square_elements) + square_text;
-  EXPECT_EQ(problem_with("a.ply", text, {.max_points = 3}), "holds more than 3 points, the limit (max_points)");
+  EXPECT_EQ(problem_with("a.ply", text, {.max_points = 3}), "holds more than 3 points; --max-points raises this limit");
   EXPECT_EQ(problem_with("a.ply", text, {.max_triangles = 1}),
-            "holds more than 1 triangles, the limit (max_triangles)");
+            "holds more than 1 triangles; --max-triangles raises this limit");
 }
 
 TEST(Ply, SurvivesDamage) {

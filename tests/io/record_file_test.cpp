@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include "spincat/error.h"
+#include "support/expect_error.h"
 
 namespace spincat {
 namespace {
@@ -109,6 +110,22 @@ TEST(RecordFile, NamesANewerVersionBeforeAnythingBehindIt) {
   newer.back() ^= 1;
   EXPECT_EQ(error_of(newer), message);
   EXPECT_EQ(error_of(newer.substr(0, newer.size() - 3)), message);
+}
+
+TEST(RecordFile, NamesAnOlderVersion) {
+  const std::string old = pack_record("model", 1, small_content());
+  EXPECT_EQ(unpack_record(old, "model", 3, 1), small_content());
+  EXPECT_EQ(test::input_error([&] { unpack_record(old, "model", 3, 2); }),
+            "was written by an older spincat (model format 1, this one reads from 2 on)");
+}
+
+// A byte for each number, sixteen in memory, and three times that while the list grows.
+TEST(RecordFile, RefusesContentThatIsFarLargerInMemory) {
+  const json list = json(std::vector<int>(1'000'000, 1));
+  EXPECT_THROW(pack_record("model", 1, list), InputError);
+  const std::string zeros = "\x9A\x00\x0F\x42\x40"s + std::string(1'000'000, '\0');
+  EXPECT_EQ(error_of(record_of(zeros)), "is damaged: its content would take 48000112 bytes of memory");
+  EXPECT_EQ(unpack_record(pack_record("model", 1, json(std::vector<int>(100'000, 1))), "model", 1).size(), 100'000U);
 }
 
 TEST(RecordFile, RefusesLengthsThatCannotBe) {

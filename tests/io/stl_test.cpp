@@ -92,7 +92,7 @@ TEST(Stl, MergesManyVertices) {
 
 TEST(Stl, RefusesInWords) {
   EXPECT_EQ(problem_with("a.stl", ""), "is empty");
-  EXPECT_EQ(problem_with("a.stl", "OFF\n1 0 0"), "is too short for an STL file");
+  EXPECT_EQ(problem_with("a.stl", "OFF\n1 0 0"), "is cut off: the header alone needs 84 bytes, it has 9");
   EXPECT_EQ(problem_with("a.stl", "solid\nendsolid\n"), "holds neither a face nor a point");
   EXPECT_EQ(problem_with("a.stl", binary("x").substr(0, 150)), "is cut off: 2 triangles need 184 bytes, it has 150");
   EXPECT_EQ(problem_with("a.stl", "solid\n" + first_facet), "line 9: the file ends before 'endsolid'");
@@ -110,9 +110,9 @@ TEST(Stl, RefusesInWords) {
 
 TEST(Stl, KeepsToTheLimits) {
   for (const std::string& bytes : {binary("x"), "solid\n" + first_facet + second_facet + "endsolid\n"}) {
-    EXPECT_EQ(problem_with("a.stl", bytes, {.max_points = 3}), "holds more than 3 points, the limit (max_points)");
+    EXPECT_EQ(problem_with("a.stl", bytes, {.max_points = 3}), "holds more than 3 points; --max-points raises this limit");
     EXPECT_EQ(problem_with("a.stl", bytes, {.max_triangles = 1}),
-              "holds more than 1 triangles, the limit (max_triangles)");
+              "holds more than 1 triangles; --max-triangles raises this limit");
   }
 }
 

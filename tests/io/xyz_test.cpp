@@ -82,7 +82,7 @@ TEST(Xyz, RefusesInWords) {
 
 TEST(Xyz, KeepsToTheLimits) {
   EXPECT_EQ(problem_with("a.xyz", "0 0 0\n1 1 1\n", {.max_points = 1}),
-            "holds more than 1 points, the limit (max_points)");
+            "holds more than 1 points; --max-points raises this limit");
 }
 
 TEST(Xyz, SurvivesDamage) {

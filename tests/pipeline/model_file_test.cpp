@@ -173,6 +173,13 @@ TEST(ModelFile, WhatIsNoModelIsRefused) {
   EXPECT_NE(input_error([&] { read_model(dir / "none"); }).find("none"), std::string::npos);
 }
 
+TEST(ModelFile, AnotherVersionIsNamed) {
+  EXPECT_EQ(problem_with(pack_record("model", 1, small_content())),
+            "was written by an older spincat (model format 1, this one reads from 2 on)");
+  EXPECT_EQ(problem_with(pack_record("model", 3, small_content())),
+            "was written by a newer spincat (model format 3, this one reads up to 2)");
+}
+
 TEST(ModelFile, AMissingMemberIsNamed) {
   for (const char* name :
        {"settings", "categories", "judges", "calibration", "dataset", "object_counts", "kinds", "made_by"}) {

@@ -137,6 +137,19 @@ TEST_F(Sweeps, WhatIsNoJournalIsRefusedAndKept) {
   EXPECT_EQ(input_error([&] { swept(unended); }), unended.string() + ": is no journal of a sweep");
 }
 
+TEST_F(Sweeps, ALineThatNoSweepWroteIsRefused) {
+  const auto journal = dir_ / "s.journal";
+  swept(journal);
+  const std::string good = read_file(journal);
+  const std::string next = std::to_string(std::ranges::count(good, '\n') + 1);
+  dir_.write("s.journal", good + std::string(100'001, '[') + "\n");
+  EXPECT_EQ(input_error([&] { swept(journal); }), journal.string() + ": line " + next + " is longer than any of a sweep");
+  const std::string many = R"({"values":["1","2","3","4","5","6","7","8","9","10","11","12","13","14","15","16","17"],)"
+                           R"("mean_class_rate":[1,1,1,1],"overall_rate":[1,1,1,1],"seconds":[1,1,1,1,1]})";
+  dir_.write("s.journal", good + many + "\n");
+  EXPECT_EQ(input_error([&] { swept(journal); }), journal.string() + ": line " + next + " is no point of a sweep");
+}
+
 TEST_F(Sweeps, ImpossibleSweepsAreRefusedBeforeAnyWork) {
   const Progress never = [](std::string_view, std::size_t, std::size_t) { FAIL() << "work before the refusal"; };
   const auto refusal = [&](const std::vector<Variation>& variations) {

@@ -11,22 +11,22 @@
 namespace spincat {
 
 CategoryMap CategoryMap::read(const std::filesystem::path& file) {
-  const CsvTable table = read_csv_table(file);
+  CsvTable table(file);
   const std::size_t class_column = table.column("class");
   const std::size_t category_column = table.column("category");
   CategoryMap map;
-  for (const CsvRow& row : table.rows) {
-    const std::string& name = table.filled(row, class_column);
-    const std::string& category = table.filled(row, category_column);
+  while (const auto row = table.next()) {
+    const std::string& name = table.filled(*row, class_column);
+    const std::string& category = table.filled(*row, category_column);
     const auto [found, is_new] = map.category_of_class_.emplace(name, category);
     if (!is_new && found->second != category) {
-      throw InputError(table.file,
-                       at_line(row.line, fmt::format("class {} goes to {} here and to {} above", in_quotes(name),
-                                                     in_quotes(category), in_quotes(found->second))));
+      throw InputError(table.file(),
+                       at_line(row->line, fmt::format("class {} goes to {} here and to {} above", in_quotes(name),
+                                                      in_quotes(category), in_quotes(found->second))));
     }
   }
   if (map.category_of_class_.empty()) {
-    throw InputError(table.file, "lists no class below its header line");
+    throw InputError(table.file(), "lists no class below its header line");
   }
   return map;
 }

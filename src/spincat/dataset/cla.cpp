@@ -64,8 +64,8 @@ class Words {
 
 class ClaReader {
  public:
-  ClaReader(std::string_view text, std::filesystem::path models, std::string split, Listing& listing)
-      : words_(text), models_(std::move(models)), split_(std::move(split)), listing_(listing) {}
+  ClaReader(std::string_view text, std::filesystem::path models, std::string split, ListBuilder& list)
+      : words_(text), models_(std::move(models)), split_(std::move(split)), list_(list) {}
 
   void read() {
     read_magic();
@@ -78,14 +78,14 @@ class ClaReader {
     if (const Word rest = words_.peek(); !rest.text.empty()) {
       fail(rest.line, fmt::format("expected the end of the file after {} classes, found {}", classes, found(rest)));
     }
-    if (listing_.objects.size() != models) {
-      fail(counts_line, fmt::format("announces {} models, but the classes list {}", models, listing_.objects.size()));
+    if (list_.objects() != models) {
+      fail(counts_line, fmt::format("announces {} models, but the classes list {}", models, list_.objects()));
     }
   }
 
  private:
   [[noreturn]] void fail(std::size_t line, std::string_view problem) const {
-    throw InputError(listing_.source.string(), at_line(line, problem));
+    throw InputError(list_.source().string(), at_line(line, problem));
   }
 
   static std::string found(const Word& word) {
@@ -154,22 +154,21 @@ class ClaReader {
       }
       listed.parent = above->second;
     }
-    if (!class_of_name_.emplace(listed.name, static_cast<std::uint32_t>(listing_.classes.size())).second) {
+    if (!class_of_name_.emplace(listed.name, list_.classes()).second) {
       fail(name.line, fmt::format("class {} is declared twice", in_quotes(name.text)));
     }
-    listing_.classes.push_back(std::move(listed));
+    list_.add_class(std::move(listed));
   }
 
   void add_model(std::uint32_t number) {
     const std::string name = fmt::format("m{}", number);
-    const auto last_class = static_cast<std::uint32_t>(listing_.classes.size() - 1);
-    listing_.objects.push_back({models_ / std::to_string(number / 100) / name / (name + ".off"), last_class, split_});
+    list_.add_object({models_ / std::to_string(number / 100) / name / (name + ".off"), list_.classes() - 1, split_});
   }
 
   Words words_;
   std::filesystem::path models_;
   std::string split_;
-  Listing& listing_;
+  ListBuilder& list_;
   std::unordered_map<std::string, std::uint32_t> class_of_name_;
 };
 
@@ -190,13 +189,13 @@ std::filesystem::path find_models(const std::filesystem::path& file) {
 
 }  // namespace
 
-Listing list_cla(const std::filesystem::path& file, const std::filesystem::path& models) {
-  Listing listing{.source = file, .classes = {}, .objects = {}, .skipped = {}};
+Listing list_cla(const std::filesystem::path& file, const std::filesystem::path& models, const ReadLimits& limits) {
   const std::string text = read_file(file);
+  ListBuilder list(file, text.size(), limits);
   const std::string stem = file.stem().string();
   const std::string split = stem == "train" || stem == "test" ? stem : "";
-  ClaReader(text, models.empty() ? find_models(file) : models, split, listing).read();
-  return listing;
+  ClaReader(text, models.empty() ? find_models(file) : models, split, list).read();
+  return list.take();
 }
 
 }  // namespace spincat

@@ -18,22 +18,58 @@ struct CsvRow {
   std::vector<std::string> fields;
 };
 
-// Throws InputError(file, "line N: ...") for quotes that do not fit together and for bytes that no text holds.
-std::vector<CsvRow> parse_csv(std::string_view text, const std::string& file);
+// Takes a text apart row by row. The text and the file's name, which is for messages, must outlive it.
+class CsvParser {
+ public:
+  CsvParser(std::string_view text, const std::string& file);
 
-// A table whose first row names its columns; every other row has as many fields.
-struct CsvTable {
-  std::string file;  // for messages
-  std::vector<std::string> columns;
-  std::vector<CsvRow> rows;
+  // The next row; nothing after the last one. Throws InputError(file, "line N: ...") for quotes that do not fit
+  // together, for bytes that no text holds, and for rows of more than 1,000 fields.
+  std::optional<CsvRow> next();
 
+ private:
+  bool at_end() const { return at_ == text_.size(); }
+  bool at_line_end() const { return text_[at_] == '\n' || text_[at_] == '\r'; }
+  [[noreturn]] void fail(std::size_t line, std::string_view problem) const;
+  bool take_line_end();
+  void skip_comment();
+  CsvRow row();
+  std::string plain_field();
+  std::string quoted_field();
+  void take_quoted_byte(std::string& field);
+  void check_after_quote() const;
+  void check_byte() const;
+
+  std::string_view text_;
+  const std::string& file_;
+  std::size_t at_ = 0;
+  std::size_t line_ = 1;
+};
+
+// A table whose first row names its columns; every other row has as many fields. Its rows are not kept.
+class CsvTable {
+ public:
+  // Reads the file and its header line. Throws InputError.
+  explicit CsvTable(const std::filesystem::path& file);
+  CsvTable(const CsvTable&) = delete;
+  CsvTable& operator=(const CsvTable&) = delete;
+
+  const std::string& file() const { return file_; }
+  std::size_t file_size() const { return text_.size(); }
   std::optional<std::size_t> find_column(std::string_view name) const;
   // Throws InputError when there is no such column.
   std::size_t column(std::string_view name) const;
+
+  // The next row; nothing after the last one. Throws InputError as CsvParser does, and for a row of another length.
+  std::optional<CsvRow> next();
   // A field that may not be empty. Throws InputError with its line when it is.
   const std::string& filled(const CsvRow& row, std::size_t column) const;
-};
 
-CsvTable read_csv_table(const std::filesystem::path& file);
+ private:
+  std::string file_;
+  std::string text_;
+  CsvParser parser_;
+  std::vector<std::string> columns_;
+};
 
 }  // namespace spincat

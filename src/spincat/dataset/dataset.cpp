@@ -30,9 +30,9 @@ constexpr std::string_view kDatasetKinds =
 // An object with its category by name: indices are given when all categories are known.
 struct NamedObject {
   fs::path file;
-  std::string category;
+  const std::string* category;
   std::string split;
-  fs::path source;
+  const fs::path* source;
 };
 
 std::string lower_case_extension(const fs::path& file) {
@@ -68,7 +68,8 @@ std::vector<fs::path> classification_files(const fs::path& folder) {
   return files;
 }
 
-void list_source(const fs::path& source, const fs::path& models, std::vector<Listing>& listings) {
+void list_source(const fs::path& source, const fs::path& models, const ReadLimits& limits,
+                 std::vector<Listing>& listings) {
   std::error_code error;
   const fs::file_status status = fs::status(source, error);
   if (!fs::exists(status)) {
@@ -79,15 +80,15 @@ void list_source(const fs::path& source, const fs::path& models, std::vector<Lis
   if (fs::is_directory(status)) {
     const std::vector<fs::path> files = classification_files(source);
     for (const fs::path& file : files) {
-      listings.push_back(list_cla(file, models.empty() ? source / "db" : models));
+      listings.push_back(list_cla(file, models.empty() ? source / "db" : models, limits));
     }
     if (files.empty()) {
       listings.push_back(list_folder(source));
     }
   } else if (extension == ".csv") {
-    listings.push_back(list_csv(source, models));
+    listings.push_back(list_csv(source, models, limits));
   } else if (extension == ".cla") {
-    listings.push_back(list_cla(source, models));
+    listings.push_back(list_cla(source, models, limits));
   } else {
     throw InputError(source.string(),
                      fmt::format("is {}: {}", is_object_file(source) ? "one object, not a data set" : "not a data set",
@@ -114,24 +115,26 @@ std::optional<std::string> why_unusable(const fs::path& file) {
   return std::nullopt;
 }
 
-// Everything that the listings name and that is there; the rest goes to `skipped`.
-std::vector<NamedObject> gather(const std::vector<Listing>& listings, const std::optional<CategoryMap>& map,
+// Everything that the listings name and that is there; the rest goes to `skipped`. Takes the objects out of the
+// listings, which may name a million of them, and refers to what is left there and to the map.
+std::vector<NamedObject> gather(std::vector<Listing>& listings, const std::optional<CategoryMap>& map,
                                 std::vector<SkippedObject>& skipped) {
   std::vector<NamedObject> objects;
-  for (const Listing& listing : listings) {
+  for (Listing& listing : listings) {
     skipped.insert(skipped.end(), listing.skipped.begin(), listing.skipped.end());
-    for (const ListedObject& object : listing.objects) {
+    for (ListedObject& object : listing.objects) {
       const std::string* category =
           map ? map->category_of(listing, object.listed_class) : &listing.classes[object.listed_class].name;
       if (category == nullptr) {
         continue;
       }
       if (auto reason = why_unusable(object.file)) {
-        skipped.push_back({object.file, *std::move(reason)});
+        skipped.push_back({std::move(object.file), *std::move(reason)});
       } else {
-        objects.push_back({object.file, *category, object.split, listing.source});
+        objects.push_back({std::move(object.file), category, std::move(object.split), &listing.source});
       }
     }
+    listing.objects = {};
   }
   return objects;
 }
@@ -149,8 +152,8 @@ void check_same(const NamedObject& first, const NamedObject& second, std::string
     const std::string other_name =
         first.file == second.file ? "" : fmt::format(" (there called {})", in_quotes(second.file.string()));
     throw InputError(first.file.string(),
-                     fmt::format("is of {} {} in {} but of {} in {}{}", what, in_quotes(a), first.source.string(),
-                                 in_quotes(b), second.source.string(), other_name));
+                     fmt::format("is of {} {} in {} but of {} in {}{}", what, in_quotes(a), first.source->string(),
+                                 in_quotes(b), second.source->string(), other_name));
   }
 }
 
@@ -167,7 +170,7 @@ std::vector<NamedObject> each_once(std::vector<NamedObject> objects) {
       continue;
     }
     NamedObject& first = result[found->second];
-    check_same(first, object, "category", first.category, object.category);
+    check_same(first, object, "category", *first.category, *object.category);
     if (first.split.empty()) {
       first.split = object.split;
     } else if (!object.split.empty()) {
@@ -181,24 +184,24 @@ std::vector<NamedObject> each_once(std::vector<NamedObject> objects) {
 void fill(Dataset& dataset, std::vector<NamedObject> objects) {
   std::map<std::string, std::uint32_t> number_of;
   for (const NamedObject& object : objects) {
-    number_of.emplace(object.category, 0);
+    number_of.emplace(*object.category, 0);
   }
   for (auto& [name, number] : number_of) {
     number = static_cast<std::uint32_t>(dataset.categories.size());
     dataset.categories.push_back(name);
   }
   for (NamedObject& object : objects) {
-    dataset.objects.push_back({std::move(object.file), number_of.at(object.category), std::move(object.split)});
+    dataset.objects.push_back({std::move(object.file), number_of.at(*object.category), std::move(object.split)});
   }
 }
 
 void check_enough(const Dataset& dataset) {
   if (dataset.objects.empty()) {
     const auto& skipped = dataset.skipped;
-    throw InputError(dataset.name, skipped.empty()
-                                       ? std::string("no object is left")
-                                       : fmt::format("no object is left; {} skipped, the first is {} ({})",
-                                                     skipped.size(), skipped[0].file.string(), skipped[0].reason));
+    throw InputError(dataset.name,
+                     skipped.empty() ? std::string("no object is left")
+                                     : fmt::format("no object is left; {} skipped, the first is {} ({})",
+                                                   skipped.size(), shown(skipped[0].file.string()), skipped[0].reason));
   }
   if (dataset.categories.size() == 1) {
     throw InputError(dataset.name,
@@ -220,10 +223,11 @@ Dataset read_dataset(const std::vector<fs::path>& sources, const DatasetOptions&
     map = CategoryMap::read(options.category_map);
   }
   Dataset dataset;
+  dataset.limits = options.limits;
   std::vector<Listing> listings;
   for (const fs::path& source : sources) {
     dataset.name += (dataset.name.empty() ? "" : ", ") + source.string();
-    list_source(source, options.models, listings);
+    list_source(source, options.models, options.limits, listings);
   }
   std::vector<NamedObject> objects = gather(listings, map, dataset.skipped);
   if (map) {

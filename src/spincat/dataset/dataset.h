@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "spincat/io/read_limits.h"
+
 namespace spincat {
 
 // One object of a data set. It is not read here: `file` is where it should be.
@@ -27,6 +29,7 @@ struct Dataset {
   std::vector<std::string> categories;  // sorted by name (byte order), each with at least one object
   std::vector<DatasetObject> objects;   // sorted by file, each file once
   std::vector<SkippedObject> skipped;   // in the order they were met
+  ReadLimits limits = {};               // while reading its objects
 };
 
 struct DatasetOptions {
@@ -36,6 +39,8 @@ struct DatasetOptions {
   // A CSV file with the columns class,category: keeps only the classes it lists, under their new category names.
   // In a .cla file a class may also be listed by the name of any of its ancestors; the nearest listed one wins.
   std::filesystem::path category_map;
+  // While reading the lists, and later the objects.
+  ReadLimits limits = {};
 };
 
 // Reads a data set from one or more sources of any of these kinds, merged into one:

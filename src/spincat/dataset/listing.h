@@ -6,9 +6,11 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "spincat/dataset/dataset.h"
+#include "spincat/io/read_limits.h"
 
 namespace spincat {
 
@@ -30,14 +32,36 @@ struct Listing {
   std::vector<SkippedObject> skipped;
 };
 
+// Fills a listing from a file. A few bytes of it may name an object, which takes far more memory: each addition throws
+// InputError, with the file, where that is too much for a file of this size (check_growth).
+class ListBuilder {
+ public:
+  ListBuilder(const std::filesystem::path& source, std::uint64_t file_size, const ReadLimits& limits);
+
+  const std::filesystem::path& source() const { return listing_.source; }
+  std::uint32_t classes() const { return static_cast<std::uint32_t>(listing_.classes.size()); }
+  std::size_t objects() const { return listing_.objects.size(); }
+  void add_class(ListedClass listed);
+  void add_object(ListedObject object);
+  Listing take() { return std::move(listing_); }
+
+ private:
+  void add_memory(std::uint64_t bytes);
+
+  Listing listing_;
+  std::uint64_t file_size_;
+  ReadLimits limits_;
+  std::uint64_t memory_ = 0;  // what the objects take until the data set is made of them
+};
+
 // A folder with a sub-folder for each category. Throws InputError when a folder cannot be read or no object is found.
 Listing list_folder(const std::filesystem::path& folder);
 
 // A CSV file; relative paths start at `models`, or beside the CSV file where `models` is empty.
-Listing list_csv(const std::filesystem::path& file, const std::filesystem::path& models);
+Listing list_csv(const std::filesystem::path& file, const std::filesystem::path& models, const ReadLimits& limits = {});
 
 // A classification file of the Princeton Shape Benchmark; `models` is the folder called db there, and is looked for
 // beside the file where it is empty.
-Listing list_cla(const std::filesystem::path& file, const std::filesystem::path& models);
+Listing list_cla(const std::filesystem::path& file, const std::filesystem::path& models, const ReadLimits& limits = {});
 
 }  // namespace spincat

@@ -53,11 +53,11 @@ std::vector<fs::path> read_objects(const fs::path& source, const fs::path& model
       throw InputError(unread[0].folder.string(), "cannot be read: " + unread[0].error.message());
     }
   } else {
-    const CsvTable table = read_csv_table(source);
+    CsvTable table(source);
     const std::size_t path = table.column("path");
     const fs::path folder = models.empty() ? source.parent_path() : models;
-    for (const CsvRow& row : table.rows) {
-      files.push_back(folder / table.filled(row, path));
+    while (const auto row = table.next()) {
+      files.push_back(folder / table.filled(*row, path));
     }
     std::ranges::sort(files);
     const auto rest = std::ranges::unique(files);

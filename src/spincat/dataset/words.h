@@ -9,15 +9,19 @@
 
 namespace spincat {
 
-// Text from a file, fit for a one-line message: between quotes, bytes that would break the line escaped, and cut short.
-inline std::string in_quotes(std::string_view text) {
-  constexpr std::size_t kLongest = 80;
-  std::string result = "'";
-  for (const char c : text.substr(0, kLongest)) {
+// Text from a file, fit for a one-line message: bytes that would break the line escaped, and cut short.
+inline std::string shown(std::string_view text, std::size_t longest = 400) {
+  std::string result;
+  for (const char c : text.substr(0, longest)) {
     const auto byte = static_cast<unsigned char>(c);
     result += byte < 0x20 || byte == 0x7F ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
   }
-  return result + (text.size() > kLongest ? "...'" : "'");
+  return result + (text.size() > longest ? "..." : "");
+}
+
+inline std::string in_quotes(std::string_view text) {
+  constexpr std::size_t kLongest = 80;
+  return "'" + shown(text, kLongest) + "'";
 }
 
 inline std::string at_line(std::size_t line, std::string_view problem) {

@@ -2,7 +2,7 @@
 //
 // Each is handed the whole file and throws InputError without the file's name, which read_object adds. All of them keep
 // to the same promises: every count is bounded by the bytes left before memory is taken for it, memory stays within
-// about 20 times the file (of a compressed PCD: 20 times what it unpacks to) and 16 MB, time grows with the file's
+// ReadLimits::max_growth times the file and 16 MB, time grows with the file's
 // size, and the outcome does not depend on the locale. What they build goes through ObjectBuilder, which checks the
 // rest.
 #pragma once

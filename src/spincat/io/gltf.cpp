@@ -136,8 +136,8 @@ Transform local_transform(const tinygltf::Node& node) {
 
 class SceneReader {
  public:
-  SceneReader(const tinygltf::Model& model, const ReadLimits& limits)
-      : model_(model), object_(limits), visited_(model.nodes.size(), false) {}
+  SceneReader(const GltfDocument& document, const ReadLimits& limits)
+      : document_(document), model_(document.model), object_(limits), visited_(model_.nodes.size(), false) {}
 
   Object read() {
     if (model_.nodes.empty()) {
@@ -201,6 +201,7 @@ class SceneReader {
 
   void add_vertices(const Values& positions, const Transform& transform) {
     object_.check_vertices(object_.vertices() + positions.count());
+    check_more(positions.count(), 0);  // nodes may repeat a mesh, and accessors each other's bytes
     for (std::size_t i = 0; i < positions.count(); ++i) {
       const Vec3 local(positions.value(i, 0), positions.value(i, 1), positions.value(i, 2));
       const Vec3 placed = (transform * local.homogeneous()).head<3>();
@@ -222,6 +223,7 @@ class SceneReader {
       return first + (indices.empty() ? static_cast<std::uint32_t>(i) : indices[0].index(i, vertices));
     };
     const std::size_t step = mode == TINYGLTF_MODE_TRIANGLES ? 3 : 1;
+    check_more(0, corners / step);
     for (std::size_t i = 0; i + 2 < corners; i += step) {
       const std::uint32_t a = corner(mode == TINYGLTF_MODE_TRIANGLE_FAN ? 0 : i);
       std::uint32_t b = corner(i + 1), c = corner(i + 2);
@@ -231,6 +233,11 @@ class SceneReader {
     }
   }
 
+  void check_more(std::uint64_t vertices, std::uint64_t triangles) const {
+    object_.check_more(vertices, triangles, document_.memory, document_.file_size);
+  }
+
+  const GltfDocument& document_;
   const tinygltf::Model& model_;
   ObjectBuilder object_;
   std::vector<bool> visited_;
@@ -239,8 +246,8 @@ class SceneReader {
 }  // namespace
 
 Object read_gltf(std::string_view bytes, const std::filesystem::path& folder, const ReadLimits& limits) {
-  const tinygltf::Model model = read_gltf_document(bytes, folder);
-  return SceneReader(model, limits).read();
+  const GltfDocument document = read_gltf_document(bytes, folder, limits);
+  return SceneReader(document, limits).read();
 }
 
 }  // namespace spincat::io

@@ -61,17 +61,17 @@ Container open_container(std::string_view bytes) {
   return container;
 }
 
-[[noreturn]] void fail_as_bloated() {
-  throw InputError("describes far more nodes, meshes or accessors than a file of its size has any use for");
-}
+// A list holds its old and its new memory for a moment while it grows.
+constexpr std::uint64_t while_growing = 3;
 
 // Looks over the brackets before anything is built from them. tinygltf goes down nested values by recursion: 100,000
-// brackets must not exhaust the stack; and each "{}" of a few bytes becomes a hundred in memory.
-void check_brackets(std::string_view text) {
+// brackets must not exhaust the stack; and each "{}" of a few bytes becomes a hundred in memory. The memory that
+// nlohmann's values will take.
+std::uint64_t check_brackets(std::string_view text, const ReadLimits& limits) {
   constexpr int deepest = 64;
-  const std::size_t most = 160'000 + text.size() / 5;
+  constexpr std::uint64_t on_heap = 64;
   int depth = 0;
-  std::size_t brackets = 0;
+  std::uint64_t memory = 0;
   bool in_string = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (in_string) {
@@ -79,13 +79,18 @@ void check_brackets(std::string_view text) {
       if (text[i] == '\\') ++i;
     } else if (text[i] == '"') {
       in_string = true;
+      memory += on_heap;
+    } else if (text[i] == ',') {
+      memory += while_growing * sizeof(json);
     } else if (text[i] == '[' || text[i] == '{') {
       if (++depth > deepest) throw InputError(fmt::format("its JSON is nested more than {} levels deep", deepest));
-      if (++brackets > most) fail_as_bloated();
+      memory += on_heap + sizeof(json);
     } else if (text[i] == ']' || text[i] == '}') {
       --depth;
     }
   }
+  check_growth(memory, text.size(), limits);
+  return memory;
 }
 
 // What has no part in the shape of an object at rest.
@@ -107,7 +112,6 @@ void leave_out_what_is_no_shape(json& value) {
 }
 
 json parse(std::string_view text) {
-  check_brackets(text);
   try {
     json document = json::parse(text);
     if (!document.is_object()) throw InputError("is no glTF file: its JSON is not an object");
@@ -142,19 +146,17 @@ std::size_t array_size(const json& object, const char* key) {
   return found != object.end() && found->is_array() ? found->size() : 0;
 }
 
-// tinygltf takes hundreds of bytes for each "{}": no file has a use for millions of those in so few bytes.
-void check_size(const json& document, std::size_t file_size) {
-  constexpr std::size_t free_of_charge = 16'000'000, most_growth = 20;
+// tinygltf takes hundreds of bytes for each "{}".
+std::uint64_t memory_of(const json& document) {
   std::size_t primitives = 0;
   for (std::size_t i = 0; i < array_size(document, "meshes"); ++i)
     primitives += array_size(document["meshes"][i], "primitives");
-  const std::size_t needed =
-      array_size(document, "nodes") * sizeof(tinygltf::Node) + array_size(document, "meshes") * sizeof(tinygltf::Mesh) +
-      primitives * sizeof(tinygltf::Primitive) + array_size(document, "accessors") * sizeof(tinygltf::Accessor) +
-      array_size(document, "bufferViews") * sizeof(tinygltf::BufferView) +
-      array_size(document, "buffers") * sizeof(tinygltf::Buffer) +
-      array_size(document, "scenes") * sizeof(tinygltf::Scene);
-  if (needed > free_of_charge + most_growth * file_size) fail_as_bloated();
+  return array_size(document, "nodes") * sizeof(tinygltf::Node) +
+         array_size(document, "meshes") * sizeof(tinygltf::Mesh) + primitives * sizeof(tinygltf::Primitive) +
+         array_size(document, "accessors") * sizeof(tinygltf::Accessor) +
+         array_size(document, "bufferViews") * sizeof(tinygltf::BufferView) +
+         array_size(document, "buffers") * sizeof(tinygltf::Buffer) +
+         array_size(document, "scenes") * sizeof(tinygltf::Scene);
 }
 
 // %20 and the like in a URI.
@@ -241,14 +243,16 @@ std::string one_line(const std::string& complaint) {
 
 }  // namespace
 
-tinygltf::Model read_gltf_document(std::string_view bytes, const std::filesystem::path& folder) {
+GltfDocument read_gltf_document(std::string_view bytes, const std::filesystem::path& folder, const ReadLimits& limits) {
   const Container container = open_container(bytes);
+  const std::uint64_t memory_of_values = check_brackets(container.text, limits);
   json document = parse(container.text);
   check_extensions(document);
   std::vector<std::string> buffers = collect_buffers(document, container, folder);
   std::size_t size = bytes.size();
   for (const std::string& buffer : buffers) size += buffer.size();
-  check_size(document, size);
+  const std::uint64_t memory = memory_of(document);
+  check_growth(memory_of_values + while_growing * memory, size, limits);
   const std::string text = document.dump();
   document = json();  // tinygltf makes its own: not both at once
   if (text.size() > std::numeric_limits<std::uint32_t>::max()) throw InputError("holds more than 4 GB of JSON");
@@ -258,18 +262,19 @@ tinygltf::Model read_gltf_document(std::string_view bytes, const std::filesystem
   reader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
                            void*) { return true; },
                         nullptr);
-  tinygltf::Model model;
+  GltfDocument result{{}, size, while_growing * memory};
   std::string error, warning;
   bool read = false;
   try {
-    read = reader.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()), "");
+    read = reader.LoadASCIIFromString(&result.model, &error, &warning, text.data(), static_cast<unsigned>(text.size()),
+                                      "");
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& exception) {
     error = exception.what();
   }
   if (!read) throw InputError(one_line(error));
-  return model;
+  return result;
 }
 
 }  // namespace spincat::io

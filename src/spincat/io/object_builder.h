@@ -34,11 +34,12 @@ class ObjectBuilder {
   // knows that the file is long enough for them.
   void check_vertices(std::uint64_t count) const {
     if (count > limits_.max_points)
-      throw InputError(fmt::format("holds more than {} points, the limit (max_points)", limits_.max_points));
+      throw InputError(fmt::format("holds more than {} points; --max-points raises this limit", limits_.max_points));
   }
   void check_triangles(std::uint64_t count) const {
     if (count > limits_.max_triangles)
-      throw InputError(fmt::format("holds more than {} triangles, the limit (max_triangles)", limits_.max_triangles));
+      throw InputError(
+          fmt::format("holds more than {} triangles; --max-triangles raises this limit", limits_.max_triangles));
   }
   void expect_vertices(std::uint64_t count) {
     check_vertices(count);
@@ -94,6 +95,18 @@ class ObjectBuilder {
   void set_sensor(const Vec3& position) { sensor_ = position; }
 
   std::size_t vertices() const { return mesh_.vertices.size(); }
+  std::size_t triangles() const { return mesh_.triangles.size(); }
+
+  // Throws when so many more vertices and triangles, besides `memory` bytes that are taken already, are too much for a
+  // file of so many bytes (check_growth).
+  void check_more(std::uint64_t vertices, std::uint64_t triangles, std::uint64_t memory,
+                  std::uint64_t file_size) const {
+    // A vector that grows holds its old and its new memory for a moment.
+    constexpr std::uint64_t while_growing = 3;
+    check_growth(memory + while_growing * ((mesh_.vertices.size() + vertices) * sizeof(Vec3) +
+                                           (mesh_.triangles.size() + triangles) * sizeof(Triangle)),
+                 file_size, limits_);
+  }
 
   // The object, a mesh where there is a face. Throws when there is nothing in it.
   Object finish() {

@@ -37,7 +37,7 @@ struct Header {
   std::uint64_t width = 0;   // of the picture that the points make up; 0 where the file does not say
   std::uint64_t height = 1;  // 1: they make up none
   std::optional<Vec3> sensor;
-  std::string encoding;  // what follows DATA
+  std::string encoding;  // what follows DATA: ascii, binary or binary_compressed
 
   std::uint64_t values_per_point() const {
     std::uint64_t sum = 0;
@@ -68,7 +68,7 @@ class HeaderReader {
  private:
   void read_line(std::string_view keyword) {
     if (keyword == "FIELDS" || keyword == "COLUMNS") {
-      while (text_.word_on_line()) header_.fields.emplace_back().name = text_.word();
+      while (text_.word_on_line()) add_field(text_.word());
     } else if (keyword == "SIZE") {
       for (Field& field : header_.fields) field.size = read_size();
     } else if (keyword == "TYPE") {
@@ -86,6 +86,12 @@ class HeaderReader {
     } else if (keyword != "VERSION") {
       text_.fail("unknown word " + in_quotes(keyword) + " in the header");
     }
+  }
+
+  void add_field(std::string_view name) {
+    constexpr std::size_t most = 1'000;  // a field takes far more memory than its name
+    if (header_.fields.size() == most) text_.fail(fmt::format("more than {} fields", most));
+    header_.fields.emplace_back().name = name;
   }
 
   std::uint64_t read_size() {
@@ -129,6 +135,9 @@ class HeaderReader {
         text_.fail(fmt::format("WIDTH {} x HEIGHT {} is not POINTS {}", *width_, height_.value_or(1), *points_));
       points_ = area;
     }
+    if (header_.encoding != "ascii" && header_.encoding != "binary" && header_.encoding != "binary_compressed")
+      text_.fail("unknown data format " + in_quotes(header_.encoding) +
+                 "; expected ascii, binary or binary_compressed");
     header_.points = *points_;
     header_.width = width_.value_or(0);
     header_.height = height_.value_or(1);
@@ -147,7 +156,7 @@ ScalarType scalar_type(const Field& field) {
   if (field.type == 'F') {
     if (field.size == 4) return ScalarType::float32;
     if (field.size == 8) return ScalarType::float64;
-    throw InputError(fmt::format("field '{}': no floating-point number has {} bytes", field.name, field.size));
+    throw InputError(fmt::format("field {}: no floating-point number has {} bytes", in_quotes(field.name), field.size));
   }
   const bool is_signed = field.type == 'I';
   switch (field.size) {
@@ -218,13 +227,15 @@ void add_point(const std::array<double, 6>& values, std::size_t number, PointSin
   sink.add(Vec3(values[0], values[1], values[2]), number == 6 ? &normal : nullptr);
 }
 
-[[noreturn]] void fail_cut_off(const Header& header) {
-  throw InputError(fmt::format("announces {} points, more than fit into the rest of the file", header.points));
+[[noreturn]] void fail_cut_off(const Header& header, std::size_t bytes_left) {
+  throw InputError(
+      fmt::format("announces {} points, more than fit into the {} bytes that follow", header.points, bytes_left));
 }
 
 void read_text(const Header& header, TextCursor& text, PointSink& sink) {
   const WantedFields wanted = find_fields(header);
-  if (header.points > (text.bytes_left() + 1) / (2 * header.values_per_point())) fail_cut_off(header);
+  if (header.points > (text.bytes_left() + 1) / (2 * header.values_per_point()))
+    fail_cut_off(header, text.bytes_left());
   sink.expect(header.points);
   for (std::uint64_t i = 0; i < header.points; ++i, text.skip_line()) {
     if (!text.word_follows()) text.fail(fmt::format("the file ends after {} of {} points", i, header.points));
@@ -268,33 +279,32 @@ void read_values(const Header& header, std::string_view bytes, bool by_field, Po
   }
 }
 
-void read_compressed(const Header& header, std::string_view bytes, PointSink& sink) {
-  if (bytes.size() < 8) fail_cut_off(header);
+void read_compressed(const Header& header, std::string_view bytes, const ReadLimits& limits, PointSink& sink) {
+  if (bytes.size() < 8) fail_cut_off(header, bytes.size());
   const std::size_t packed_size = load<std::uint32_t>(bytes.data());
   const std::size_t size = load<std::uint32_t>(bytes.data() + 4);
   bytes.remove_prefix(8);
-  if (packed_size > bytes.size()) fail_cut_off(header);
+  if (packed_size > bytes.size()) fail_cut_off(header, bytes.size());
   if (header.points > size / header.point_size() || header.points * header.point_size() != size)
     throw InputError(fmt::format("its {} points of {} bytes do not make up the {} bytes that are compressed",
                                  header.points, header.point_size(), size));
   constexpr std::size_t best_ratio = 88;  // 264 bytes out of 3
   if (size / best_ratio > packed_size) throw InputError("its compressed points are damaged");
+  check_growth(size + header.points * 2 * sizeof(Vec3), bytes.size(), limits);
   read_values(header, unpack_lzf(bytes.substr(0, packed_size), size), true, sink);
 }
 
 // The points behind the header, in whatever form they come.
-void read_points(const Header& header, TextCursor& text, std::string_view bytes, PointSink& sink) {
+void read_points(const Header& header, TextCursor& text, std::string_view bytes, const ReadLimits& limits,
+                 PointSink& sink) {
   const std::string_view body = bytes.substr(bytes.size() - text.bytes_left());
   if (header.encoding == "ascii") {
     read_text(header, text, sink);
   } else if (header.encoding == "binary") {
-    if (header.points > body.size() / header.point_size()) fail_cut_off(header);
+    if (header.points > body.size() / header.point_size()) fail_cut_off(header, body.size());
     read_values(header, body, false, sink);
-  } else if (header.encoding == "binary_compressed") {
-    read_compressed(header, body, sink);
   } else {
-    throw InputError("unknown data format " + in_quotes(header.encoding) +
-                     "; expected ascii, binary or binary_compressed");
+    read_compressed(header, body, limits, sink);
   }
 }
 
@@ -307,7 +317,7 @@ Object read_pcd(std::string_view bytes, const ReadLimits& limits) {
   object.check_vertices(header.points);
   if (header.sensor) object.set_sensor(*header.sensor);
   ObjectSink sink(object);
-  read_points(header, text, bytes, sink);
+  read_points(header, text, bytes, limits, sink);
   return object.finish();
 }
 
@@ -328,7 +338,7 @@ OrganizedCloud read_organized_pcd(std::string_view bytes) {
   }
   OrganizedCloud cloud{static_cast<int>(header.width), static_cast<int>(header.height), {}};
   io::PictureSink sink(cloud.points);
-  io::read_points(header, text, bytes, sink);
+  io::read_points(header, text, bytes, {}, sink);
   return cloud;
 }
 

@@ -84,6 +84,9 @@ Property read_property(TextCursor& text) {
   return property;
 }
 
+// Each is compared with all before it.
+constexpr std::size_t most_elements = 100;
+
 // Leaves the cursor behind the line of end_header.
 Header read_header(TextCursor& text) {
   if (text.word() != "ply") text.fail("expected the first line 'ply'");
@@ -97,6 +100,7 @@ Header read_header(TextCursor& text) {
     } else if (keyword == "element") {
       const std::string name(text.word());
       if (header.find(name) != nullptr) text.fail("a second element called " + in_quotes(name));
+      if (header.elements.size() == most_elements) text.fail(fmt::format("more than {} elements", most_elements));
       header.elements.push_back({name, text.count("the number of elements"), {}});
     } else if (keyword == "property") {
       if (header.elements.empty()) text.fail("a property before the first element");
@@ -153,7 +157,7 @@ class BinaryBody {
     row_ = row;
   }
   [[noreturn]] void fail(const std::string& problem) const {
-    throw InputError(fmt::format("{} {}: {}", element_->name, row_, problem));
+    throw InputError(fmt::format("{} {}: {}", shown(element_->name), row_, problem));
   }
 
  private:
@@ -223,8 +227,8 @@ class PlyReader {
     for (const Property& property : element.properties)
       least_row += Body::least_size(property.length_type.value_or(property.type));
     if (element.count > body_.bytes_left() / least_row)
-      body_.fail(
-          fmt::format("announces {} x {}, more than fit into the rest of the file", element.count, element.name));
+      body_.fail(fmt::format("announces {} x {}, more than fit into the rest of the file", element.count,
+                             shown(element.name)));
     if (element.name == "vertex") {
       read_vertices(element);
     } else if (element.name == "face") {

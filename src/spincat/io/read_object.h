@@ -1,20 +1,14 @@
 // One front door for reading an object from a file, whatever its format.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "spincat/geometry/object.h"
+#include "spincat/io/read_limits.h"
 
 namespace spincat {
-
-// Limits while reading, so that a damaged or hostile file cannot take the machine down.
-struct ReadLimits {
-  std::size_t max_points = 100'000'000;     // vertices or points
-  std::size_t max_triangles = 200'000'000;  // after polygons are cut into triangles
-};
 
 // Reads an OFF, OBJ, PLY, STL, PCD, XYZ, glTF or GLB file; the extension decides, upper or lower case. XYZ files are
 // also called .xyzn, .pts, .asc or .txt.

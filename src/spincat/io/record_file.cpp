@@ -67,13 +67,24 @@ class RecordReader {
 };
 
 // Looks through CBOR, without recursion, for what to_cbor never writes: containers nested too deep, and strings or
-// containers of no stated length. nlohmann's parser recurses for each level of both, and in strings it does so without
+// containers of no stated length; and for content that would take far more memory than its bytes, as a million empty
+// lists would. nlohmann's parser recurses for each level of both, and in strings it does so without
 // asking its SAX handler, so that a handler alone cannot keep 50,000 levels from overflowing the stack.
 class CborCheck {
  public:
   explicit CborCheck(std::string_view bytes) : bytes_(bytes) {}
 
   void run() {
+    constexpr std::uint64_t kFree = 8'000'000;
+    constexpr std::uint64_t kMostGrowth = 12;  // the blobs come on top of it
+    look_through();
+    if (memory_ > kFree + kMostGrowth * bytes_.size()) {
+      throw InputError(fmt::format("is damaged: its content would take {} bytes of memory", memory_));
+    }
+  }
+
+ private:
+  void look_through() {
     std::array<std::uint64_t, kDeepest + 1> items_left = {1};  // by level; level 0 is the content itself
     std::size_t level = 0;
     while (true) {
@@ -92,7 +103,6 @@ class CborCheck {
     }
   }
 
- private:
   static void check(bool holds) {
     if (!holds) {
       throw InputError("is damaged: its content is not valid CBOR");
@@ -104,6 +114,9 @@ class CborCheck {
     check(at_ < bytes_.size());
     const auto head = static_cast<unsigned char>(bytes_[at_++]);
     const std::uint64_t argument = take_argument(head & 0x1F);
+    constexpr std::uint64_t kInList = 3 * sizeof(json);  // the list holds its old and its new memory while it grows
+    constexpr std::uint64_t kOnHeap = 64;
+    memory_ += kInList + (head >> 5 >= 2 && head >> 5 <= 5 ? kOnHeap : 0);
     switch (head >> 5) {
       case 2:  // blob
       case 3:  // text
@@ -146,6 +159,7 @@ class CborCheck {
 
   std::string_view bytes_;
   std::size_t at_ = 0;
+  std::uint64_t memory_ = 0;  // what nlohmann's parser will take, but for what is in strings and blobs
 };
 
 void check_kind(RecordReader& reader, std::string_view kind) {
@@ -159,11 +173,16 @@ void check_kind(RecordReader& reader, std::string_view kind) {
   }
 }
 
-void check_version(RecordReader& reader, std::string_view kind, std::uint32_t newest_version) {
+void check_version(RecordReader& reader, std::string_view kind, std::uint32_t newest_version,
+                   std::uint32_t oldest_version) {
   const auto version = reader.take_little_endian<std::uint32_t>();
   if (version > newest_version) {
     throw InputError(fmt::format("was written by a newer spincat ({} format {}, this one reads up to {})", kind,
                                  version, newest_version));
+  }
+  if (version < oldest_version) {
+    throw InputError(fmt::format("was written by an older spincat ({} format {}, this one reads from {} on)", kind,
+                                 version, oldest_version));
   }
 }
 
@@ -203,14 +222,15 @@ std::string pack_record(std::string_view kind, std::uint32_t version, const json
   return bytes;
 }
 
-json unpack_record(std::string_view bytes, std::string_view kind, std::uint32_t newest_version) {
+json unpack_record(std::string_view bytes, std::string_view kind, std::uint32_t newest_version,
+                   std::uint32_t oldest_version) {
   if (!bytes.starts_with(kFileMagic)) {
     throw InputError("is not a spincat file");
   }
   RecordReader reader(bytes);
   reader.take(kFileMagic.size());
   check_kind(reader, kind);
-  check_version(reader, kind, newest_version);
+  check_version(reader, kind, newest_version, oldest_version);
   const std::string_view payload = reader.take(check_length(reader));
   const std::uint32_t checksum = checksum_of(reader.taken());
   if (reader.take_little_endian<std::uint32_t>() != checksum) {

@@ -23,9 +23,10 @@ namespace spincat {
 // have no subtypes.
 std::string pack_record(std::string_view kind, std::uint32_t version, const nlohmann::json& content);
 
-// The content of a record of this kind and of a version up to `newest_version`. The magic, kind, version, length and
-// checksum are checked in this order, so that the message names what is really the matter.
-// Throws InputError, without the file's name, for anything else; no bytes, however made, crash it.
-nlohmann::json unpack_record(std::string_view bytes, std::string_view kind, std::uint32_t newest_version);
+// The content of a record of this kind and of a version from `oldest_version` to `newest_version`. The magic, kind,
+// version, length and checksum are checked in this order, so that the message names what is really the matter. Throws
+// InputError, without the file's name, for anything else; no bytes, however made, crash it.
+nlohmann::json unpack_record(std::string_view bytes, std::string_view kind, std::uint32_t newest_version,
+                             std::uint32_t oldest_version = 1);
 
 }  // namespace spincat

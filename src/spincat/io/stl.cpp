@@ -88,7 +88,8 @@ Vec3 corner_at(const char* at, std::uint64_t triangle) {
 }
 
 Object read_binary(std::string_view bytes, const ReadLimits& limits) {
-  if (bytes.size() < header_size) throw InputError("is too short for an STL file");
+  if (bytes.size() < header_size)
+    throw InputError(fmt::format("is cut off: the header alone needs {} bytes, it has {}", header_size, bytes.size()));
   if (bytes.size() < binary_size(bytes))
     throw InputError(fmt::format("is cut off: {} triangles need {} bytes, it has {}",
                                  load<std::uint32_t>(bytes.data() + header_size - 4), binary_size(bytes),

@@ -36,12 +36,16 @@ bool is_tiny(std::string_view number) {
 
 }  // namespace
 
-std::string in_quotes(std::string_view text) {
+std::string shown(std::string_view text) {
   constexpr std::size_t longest = 24;
-  std::string shown(text.substr(0, longest));
+  std::string result(text.substr(0, longest));
   std::replace_if(
-      shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return "'" + shown + (text.size() > longest ? "...'" : "'");
+      result.begin(), result.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return text.size() > longest ? result + "..." : result;
+}
+
+std::string in_quotes(std::string_view text) {
+  return "'" + shown(text) + "'";
 }
 
 bool same_word(std::string_view a, std::string_view b) {

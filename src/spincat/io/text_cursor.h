@@ -18,7 +18,8 @@ struct TextStyle {
   bool backslash_continues = false;  // a \ at the end of a line joins it with the next
 };
 
-// A piece of a file in quotes, short and printable, for error messages.
+// A piece of a file, cut short and printable, for error messages; and the same in quotes.
+std::string shown(std::string_view text);
 std::string in_quotes(std::string_view text);
 
 // Whether two words are equal but for upper and lower case.

@@ -1,26 +1,12 @@
 #include "spincat/judge/judge_list.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <utility>
 
-#include "spincat/error.h"
 #include "spincat/judge/pairwise_svm.h"
 
 namespace spincat {
-
-double default_c(KernelKind kernel) {
-  return kernel == KernelKind::linear ? 200.0 : 3.0;
-}
-
-void JudgeSettings::validate() const {
-  if (!(c > 0.0) || !std::isfinite(c)) {
-    throw InputError(fmt::format("C {} is out of range (above 0)", c));
-  }
-}
 
 std::vector<CategoryPair> all_pairs(std::uint32_t categories) {
   std::vector<CategoryPair> pairs;
@@ -147,14 +133,6 @@ void JudgeList::put(std::size_t l, const FoldedJudge& judge) {
   weights.row(row) = judge.weights;
   bias[row] = judge.bias;
   support_vectors[l] = judge.support_vectors;
-}
-
-std::size_t JudgeList::feature_length() const {
-  return codebook.empty() ? seen_length() : codebook.input_length();
-}
-
-std::size_t JudgeList::seen_length() const {
-  return static_cast<std::size_t>(kernel.kind == KernelKind::linear ? weights.cols() : supports.cols());
 }
 
 FeatureMatrix JudgeList::margins(std::span<const std::span<const float>> objects) const {

@@ -100,10 +100,12 @@ struct JudgeList {
   void put(std::size_t l, const FoldedJudge& judge);
 
   // D: how many features the kernel sees of an object.
-  std::size_t seen_length() const;
+  std::size_t seen_length() const {
+    return static_cast<std::size_t>(kernel.kind == KernelKind::linear ? weights.cols() : supports.cols());
+  }
 
   // How many features an object needs: D, or local features for the codebook.
-  std::size_t feature_length() const;
+  std::size_t feature_length() const { return codebook.empty() ? seen_length() : codebook.input_length(); }
 
   // Every judge's margin for feature vectors of feature_length() numbers each: a row for each of them. Deterministic,
   // and the same for one vector and for many; many at a time are faster, for the judges are long.

@@ -24,9 +24,10 @@ Classification classify(const Model& model, const Object& object, const EncodePr
   return result;
 }
 
-Classification classify_file(const Model& model, const std::filesystem::path& file, const EncodePrepared& elsewhere) {
+Classification classify_file(const Model& model, const std::filesystem::path& file, const ReadLimits& limits,
+                             const EncodePrepared& elsewhere) {
   Stopwatch watch;
-  const Object object = read_object(file);
+  const Object object = read_object(file, limits);
   const double read = watch.lap();
   try {
     Classification result = classify(model, object, elsewhere);

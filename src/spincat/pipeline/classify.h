@@ -5,6 +5,7 @@
 #include <string>
 
 #include "spincat/geometry/object.h"
+#include "spincat/io/read_limits.h"
 #include "spincat/judge/ballot.h"
 #include "spincat/pipeline/describe.h"
 #include "spincat/pipeline/model.h"
@@ -23,7 +24,7 @@ struct Classification {
 Classification classify(const Model& model, const Object& object, const EncodePrepared& elsewhere = {});
 
 // The same for an object in a file; what is thrown names the file.
-Classification classify_file(const Model& model, const std::filesystem::path& file,
+Classification classify_file(const Model& model, const std::filesystem::path& file, const ReadLimits& limits = {},
                              const EncodePrepared& elsewhere = {});
 
 }  // namespace spincat

@@ -9,14 +9,16 @@
 #include "spincat/parallel/packing.h"
 #include "spincat/pipeline/describe_tasks.h"
 #include "spincat/pipeline/packed_features.h"
+#include "spincat/pipeline/packed_limits.h"
 #include "spincat/pipeline/task_kinds.h"
 
 namespace spincat {
 namespace {
 
-Answer answer_for(const Model& model, const std::filesystem::path& file, const EncodePrepared& elsewhere = {}) {
+Answer answer_for(const Model& model, const std::filesystem::path& file, const ReadLimits& limits,
+                  const EncodePrepared& elsewhere = {}) {
   try {
-    return {classify_file(model, file, elsewhere), {}};
+    return {classify_file(model, file, limits, elsewhere), {}};
   } catch (const std::bad_alloc&) {
     return {{}, file.string() + ": not enough memory for it"};
   } catch (const Error& error) {
@@ -57,26 +59,35 @@ Answer unpack_answer(std::string_view bytes, std::size_t categories) {
 }  // namespace
 
 Work make_classify_work(std::string_view context) {
-  const auto model = std::make_shared<const Model>(read_model(std::filesystem::path(context)));
-  return [model](std::string_view file) { return pack(answer_for(*model, std::filesystem::path(file))); };
+  Unpacker fields(context);
+  const ReadLimits limits = unpack_limits(fields);
+  const auto model = std::make_shared<const Model>(read_model(std::filesystem::path(fields.rest())));
+  return
+      [model, limits](std::string_view file) { return pack(answer_for(*model, std::filesystem::path(file), limits)); };
 }
 
 void classify_files(TaskFarm& farm, const ClassifyJob& job, const std::function<void(std::size_t i, Answer)>& deliver,
                     const TaskFarm::Tick& tick) {
   if (shares_out_points(job.model.settings, job.division)) {
     for (std::size_t i = 0; i < job.files; ++i) {
-      deliver(i, answer_for(job.model, job.file(i), encode_on(farm, job.model.settings, job.division, [&](std::size_t) {
-                              if (tick) {
-                                tick(i);
-                              }
-                            })));
+      const EncodePrepared elsewhere = encode_on(farm, job.model.settings, job.division, [&](std::size_t) {
+        if (tick) {
+          tick(i);
+        }
+      });
+      deliver(i, answer_for(job.model, job.file(i), job.limits, elsewhere));
     }
     return;
   }
   Job tasks;
   tasks.kind = kClassifyTasks;
-  tasks.context = [&](Packer& packer) { packer.add_rest(job.model_file.string()); };
-  tasks.work = [&](std::string_view file) { return pack(answer_for(job.model, std::filesystem::path(file))); };
+  tasks.context = [&](Packer& packer) {
+    pack_limits(packer, job.limits);
+    packer.add_rest(job.model_file.string());
+  };
+  tasks.work = [&](std::string_view file) {
+    return pack(answer_for(job.model, std::filesystem::path(file), job.limits));
+  };
   tasks.tasks = job.files;
   tasks.task = [&](std::size_t i) { return job.file(i).string(); };
   tasks.deliver = [&](std::size_t i, const std::string& result) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "spincat/io/read_limits.h"
 #include "spincat/parallel/task.h"
 #include "spincat/parallel/task_farm.h"
 #include "spincat/pipeline/classify.h"
@@ -29,6 +30,7 @@ struct ClassifyJob {
   std::size_t files = 0;
   std::function<const std::filesystem::path&(std::size_t)> file;
   Division division = Division::sums;
+  ReadLimits limits = {};
 };
 
 // Names every file and hands the answers on in order, on the calling thread. Objects with many spin points, or all of

@@ -8,6 +8,7 @@
 #include "spincat/error.h"
 #include "spincat/io/read_object.h"
 #include "spincat/pipeline/packed_features.h"
+#include "spincat/pipeline/packed_limits.h"
 #include "spincat/pipeline/settings_json.h"
 #include "spincat/pipeline/stopwatch.h"
 #include "spincat/pipeline/task_kinds.h"
@@ -22,11 +23,12 @@ constexpr int kDenseSpinPoints = 8 * static_cast<int>(kSpinImageBlock * 8);
 using DescribeOne = std::function<FeatureVector(const Object& object, int copy, StageSeconds& seconds)>;
 
 // `describe_one` is called for the object itself and each of its copies.
-Described described_file(const std::filesystem::path& file, int views, const DescribeOne& describe_one) {
+Described described_file(const std::filesystem::path& file, int views, const ReadLimits& limits,
+                         const DescribeOne& describe_one) {
   Described result;
   try {
     Stopwatch watch;
-    const Object object = read_object(file);
+    const Object object = read_object(file, limits);
     result.kind = kind_of(object);
     result.seconds.read = watch.lap();
     for (int copy = 0; copy < views; ++copy) {
@@ -39,9 +41,9 @@ Described described_file(const std::filesystem::path& file, int views, const Des
   return result;
 }
 
-Work describe_work(const Settings& settings, int views) {
-  return [settings, views](std::string_view file) {
-    return pack(described_file(file, views, [&](const Object& object, int copy, StageSeconds& seconds) {
+Work describe_work(const Settings& settings, int views, const ReadLimits& limits) {
+  return [settings, views, limits](std::string_view file) {
+    return pack(described_file(file, views, limits, [&](const Object& object, int copy, StageSeconds& seconds) {
       return describe(object, settings, copy, &seconds);
     }));
   };
@@ -58,9 +60,10 @@ void describe_by_points(TaskFarm& farm, const DescribeJob& job,
   };
   const EncodePrepared elsewhere = encode_on(farm, job.settings, job.division, at_work);
   for (std::size_t i = 0; i < job.files; ++i) {
-    deliver(i, described_file(job.file(i), job.views, [&](const Object& object, int copy, StageSeconds& seconds) {
-              return describe(object, job.settings, copy, &seconds, elsewhere);
-            }));
+    deliver(i, described_file(job.file(i), job.views, job.limits,
+                              [&](const Object& object, int copy, StageSeconds& seconds) {
+                                return describe(object, job.settings, copy, &seconds, elsewhere);
+                              }));
     ++done;
     at_work(0);
   }
@@ -106,7 +109,8 @@ RankWork make_describe_work(std::string_view context, KeptData& kept) {
   Unpacker fields(context);
   const int views = fields.get<int>();
   const auto rows_to_keep = fields.get<std::uint64_t>();
-  RankWork result = describe_work(settings_from_json(nlohmann::json::parse(fields.get_text())), views);
+  const ReadLimits limits = unpack_limits(fields);
+  RankWork result = describe_work(settings_from_json(nlohmann::json::parse(fields.get_text())), views, limits);
   if (rows_to_keep > 0) {
     kept = {};
     kept.rows.emplace(rows_to_keep, static_cast<std::size_t>(views));
@@ -131,7 +135,8 @@ void describe_files(TaskFarm& farm, const DescribeJob& job,
   tasks.kind = kDescribeTasks;
   tasks.context = [&](Packer& packer) {
     const std::uint64_t rows_to_keep = job.keeps_rows ? job.files : 0;
-    packer.add(job.views).add(rows_to_keep).add(settings_to_json(job.settings).dump());
+    pack_limits(packer.add(job.views).add(rows_to_keep), job.limits);
+    packer.add(settings_to_json(job.settings).dump());
   };
   if (job.keeps_rows) {
     tasks.tells_all = [&](std::string_view result) -> std::optional<bool> {
@@ -142,7 +147,7 @@ void describe_files(TaskFarm& farm, const DescribeJob& job,
       return job.keeps_rows(described.features[0].values.size());
     };
   }
-  tasks.work = describe_work(job.settings, job.views);
+  tasks.work = describe_work(job.settings, job.views, job.limits);
   tasks.tasks = job.files;
   tasks.task = [&](std::size_t i) { return job.file(i).string(); };
   tasks.deliver = [&](std::size_t i, const std::string& result) { deliver(i, unpack_described(result)); };

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "spincat/encode/feature_vector.h"
+#include "spincat/io/read_limits.h"
 #include "spincat/parallel/task.h"
 #include "spincat/parallel/task_farm.h"
 #include "spincat/pipeline/dense_object.h"
@@ -39,6 +40,7 @@ struct DescribeJob {
   const Settings& settings;
   int views = 1;  // the object itself and views - 1 training copies
   Division division = Division::sums;
+  ReadLimits limits = {};
   // Asked with the length of the first feature vector: whether all ranks keep all of them (KeptData::rows). Not asked
   // where spin points are shared out. Empty: no.
   std::function<bool(std::size_t length)> keeps_rows;

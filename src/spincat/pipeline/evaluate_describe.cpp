@@ -25,8 +25,8 @@ TestTable described(std::span<const DatasetObject> objects, const EvaluationData
                     const TestOptions& test, const EvaluateOptions& options, const Progress& progress) {
   OwnFarm own(options.threads);
   TaskFarm& farm = options.farm != nullptr ? *options.farm : own.farm();
-  TestTable tested = describe_tested(objects, static_cast<std::size_t>(data.table.features.cols()), settings, test,
-                                     farm, progress);
+  TestTable tested =
+      describe_tested(objects, static_cast<std::size_t>(data.table.features.cols()), settings, test, farm, progress);
   if (options.strict) {
     check_all_described(tested);
   }
@@ -53,7 +53,9 @@ EvaluationData describe_known(const Dataset& dataset, const Settings& settings, 
     strangers.push_back({file, 0, ""});
   }
   // As they are: whether a stranger is turned or sampled, it stays a stranger.
-  data.strangers = described(strangers, data, settings, {}, options, progress);
+  TestOptions as_they_are;
+  as_they_are.limits = options.test.limits;
+  data.strangers = described(strangers, data, settings, as_they_are, options, progress);
   return data;
 }
 

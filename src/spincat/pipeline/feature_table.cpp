@@ -148,7 +148,7 @@ FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, 
   TableRows rows(objects.size(), rows_each);
   bool all_ranks_keep = false;
   DescribeJob job{objects.size(), [&](std::size_t i) -> const std::filesystem::path& { return dataset.objects[i].file; },
-                  settings, settings.training_rows(), division, {}};
+                  settings, settings.training_rows(), division, dataset.limits, {}};
   job.keeps_rows = [&](std::size_t length) {
     all_ranks_keep =
         pays_to_share({objects.size(), objects.size() * rows_each, length, dataset.categories.size()}, plan, farm);

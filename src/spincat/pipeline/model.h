@@ -15,8 +15,10 @@
 
 namespace spincat {
 
-// The newest version of the model file that this library reads and the one it writes.
+// The newest version of the model file that this library reads, which is the one it writes, and the oldest one. Models
+// of older versions lack what answers are made of now: they are to be trained again.
 inline constexpr std::uint32_t kModelVersion = 2;
+inline constexpr std::uint32_t kOldestModelVersion = 2;
 
 struct Model {
   Settings settings;

@@ -287,7 +287,7 @@ void write_model(const std::filesystem::path& file, const Model& model) {
 Model read_model(const std::filesystem::path& file) {
   const std::string bytes = read_file(file);
   try {
-    return model_from_json(unpack_record(bytes, "model", kModelVersion));
+    return model_from_json(unpack_record(bytes, "model", kModelVersion, kOldestModelVersion));
   } catch (const InputError& error) {
     throw InputError(file.string(), error.problem());
   }

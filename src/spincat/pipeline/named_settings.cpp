@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "spincat/error.h"
+#include "spincat/pipeline/setting_names.h"
 #include "spincat/pipeline/settings_json.h"
 
 namespace spincat {
@@ -36,6 +37,9 @@ Json typed_value(const std::string& name, std::string_view text, const Json& lik
 }  // namespace
 
 std::string setting_name(std::string_view name) {
+  if (!is_setting_text(name)) {
+    throw InputError("a setting's name is too long or not printable");
+  }
   std::string key(name.substr(name.rfind('.') == std::string_view::npos ? 0 : name.rfind('.') + 1));
   std::ranges::replace(key, '-', '_');
   const Json known = settings_to_json(Settings{});
@@ -53,6 +57,9 @@ std::string setting_name(std::string_view name) {
 
 Settings with_setting(const Settings& settings, std::string_view name, std::string_view value) {
   const std::string key = setting_name(name);
+  if (!is_setting_text(value)) {
+    throw InputError(fmt::format("setting {}: its value is too long or not printable", key));
+  }
   Json json = settings_to_json(settings);
   json[key] = typed_value(key, value, json[key]);
   if (key == "support_angle") {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "spincat/error.h"
 
 namespace spincat {
@@ -60,6 +62,11 @@ std::span<const ChoiceName<UpAxis>> choices() {
 template <>
 std::span<const ChoiceName<TaughtFor>> choices() {
   return kTaughtFor;
+}
+
+bool is_setting_text(std::string_view text) {
+  constexpr std::size_t kLongest = 64;
+  return text.size() <= kLongest && std::ranges::all_of(text, [](char c) { return c >= ' ' && c <= '~'; });
 }
 
 void throw_unknown_choice(std::string_view field, std::string_view name, std::span<const std::string_view> known) {

@@ -48,6 +48,9 @@ std::string_view name_of(Choice choice) {
   return "?";
 }
 
+// Whether this may be a setting's name or value at all, and may stand in a message: at most 64 bytes, all printable.
+bool is_setting_text(std::string_view text);
+
 // Throws InputError that lists the names: "surface 'x' is not known (one of ...)".
 [[noreturn]] void throw_unknown_choice(std::string_view field, std::string_view name,
                                        std::span<const std::string_view> known);

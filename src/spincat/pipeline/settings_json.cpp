@@ -32,6 +32,14 @@ T field(const Json& json, const char* name) {
   }
 }
 
+std::string text(const Json& json, const char* name) {
+  auto value = field<std::string>(json, name);
+  if (!is_setting_text(value)) {
+    throw InputError(fmt::format("setting '{}' is too long or not printable", name));
+  }
+  return value;
+}
+
 // A whole number: a fraction, or a number beyond the type, is not quietly cut.
 template <class T>
 T whole(const Json& json, const char* name) {
@@ -44,7 +52,7 @@ T whole(const Json& json, const char* name) {
 
 template <class Choice>
 Choice choice(const Json& json, const char* name) {
-  return choice_of<Choice>(name, field<std::string>(json, name));
+  return choice_of<Choice>(name, text(json, name));
 }
 
 }  // namespace
@@ -80,7 +88,7 @@ nlohmann::ordered_json settings_to_json(const Settings& s) {
 
 Settings settings_from_json(const Json& json) {
   Settings s;
-  s.preset = field<std::string>(json, "preset");
+  s.preset = text(json, "preset");
   s.prepare.surface = choice<SurfaceKind>(json, "surface");
   s.prepare.orientation = choice<NormalOrientation>(json, "orientation");
   s.prepare.points = whole<int>(json, "points");
@@ -93,7 +101,7 @@ Settings settings_from_json(const Json& json) {
   s.spin.support_angle = field<double>(json, "support_angle");
   s.spin.binning = choice<Binning>(json, "binning");
   s.spin.angle_test = choice<AngleTest>(json, "angle_test");
-  s.encoding = field<std::string>(json, "encoding");
+  s.encoding = text(json, "encoding");
   s.plain_samples = field<bool>(json, "plain_samples");
   s.up = choice<UpAxis>(json, "up");
   s.draws = whole<int>(json, "draws");

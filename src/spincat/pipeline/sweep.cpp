@@ -85,7 +85,10 @@ Json identity_of(const Dataset& dataset, const Settings& settings, const std::ve
             {"fewest_objects", options.fewest_objects},
             {"test_as", static_cast<int>(options.test.form)},
             {"noise", options.test.noise},
-            {"cloud_points", options.test.cloud_points}}}};
+            {"cloud_points", options.test.cloud_points},
+            {"max_points", dataset.limits.max_points},
+            {"max_triangles", dataset.limits.max_triangles},
+            {"max_growth", dataset.limits.max_growth}}}};
 }
 
 }  // namespace

@@ -19,6 +19,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Far more than a sweep ever writes; JSON takes up to 80 times its text in memory.
+constexpr std::size_t kLongestLine = 100'000;
+constexpr std::size_t kMostValues = 16;  // of a point, one for each setting that is varied
+
 Json rate_json(const Rate& rate) {
   return {rate.mean, rate.deviation, rate.interval.low, rate.interval.high};
 }
@@ -92,7 +96,12 @@ void SweepJournal::begin(const Json& identity) {
 }
 
 void SweepJournal::read(const std::string& text, const Json& identity) {
+  std::size_t line = 0;
   for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', whole_)) {
+    ++line;
+    if (end - whole_ > kLongestLine) {
+      throw InputError(file_.string(), fmt::format("line {} is longer than any of a sweep", line));
+    }
     const Json json = Json::parse(text.substr(whole_, end - whole_), nullptr, false);
     if (whole_ == 0) {
       if (!json.is_object() || !json.contains("sweep")) {
@@ -107,9 +116,12 @@ void SweepJournal::read(const std::string& text, const Json& identity) {
     } else {
       try {
         SweepPoint point = point_of(json);
+        if (point.values.size() > kMostValues) {
+          throw InputError(file_.string(), fmt::format("line {} is no point of a sweep", line));
+        }
         points_[point.values] = point;
       } catch (const Json::exception&) {
-        throw InputError(file_.string(), fmt::format("line {} is no point of a sweep", points_.size() + 2));
+        throw InputError(file_.string(), fmt::format("line {} is no point of a sweep", line));
       }
     }
     whole_ = end + 1;

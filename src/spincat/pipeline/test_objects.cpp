@@ -16,6 +16,7 @@
 #include "spincat/parallel/packing.h"
 #include "spincat/parallel/task_farm.h"
 #include "spincat/pipeline/describe_tasks.h"
+#include "spincat/pipeline/packed_limits.h"
 #include "spincat/pipeline/settings_json.h"
 #include "spincat/pipeline/stopwatch.h"
 #include "spincat/pipeline/task_kinds.h"
@@ -124,7 +125,8 @@ Described describe_task(const TestedTask& task, const Settings& settings, const 
   Described described;
   try {
     Stopwatch watch;
-    const Object object = in_test_form(read_object(std::filesystem::path(task.file)), options, task.seed);
+    const Object object =
+        in_test_form(read_object(std::filesystem::path(task.file), options.limits), options, task.seed);
     described.kind = kind_of(object);
     described.seconds.read = watch.lap();
     for (int view = 0; view < settings.tested_rows(); ++view) {
@@ -154,6 +156,7 @@ Work make_tested_work(std::string_view context) {
   options.form = fields.get<TestForm>();
   options.noise = fields.get<double>();
   options.cloud_points = fields.get<int>();
+  options.limits = unpack_limits(fields);
   return tested_work(settings, options);
 }
 
@@ -169,8 +172,8 @@ TestTable describe_tested(std::span<const DatasetObject> objects, std::size_t fe
   Job job;
   job.kind = kTestedTasks;
   job.context = [&](Packer& packer) {
-    const auto& [form, noise, cloud_points] = options;
-    packer.add(settings_to_json(settings).dump()).add(form).add(noise).add(cloud_points);
+    packer.add(settings_to_json(settings).dump()).add(options.form).add(options.noise).add(options.cloud_points);
+    pack_limits(packer, options.limits);
   };
   job.work = tested_work(settings, options);
   job.tasks = objects.size();

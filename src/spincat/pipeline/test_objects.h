@@ -9,6 +9,7 @@
 
 #include "spincat/dataset/dataset.h"
 #include "spincat/geometry/object.h"
+#include "spincat/io/read_limits.h"
 #include "spincat/judge/gram.h"
 #include "spincat/parallel/task.h"
 #include "spincat/pipeline/describe.h"
@@ -32,6 +33,7 @@ struct TestOptions {
   double noise = 0.01;      // of clouds: standard deviation along each axis, in diameters of the object, 0 to 1; the
                             // diameter is twice the distance of the furthest point from the centre of the bounding box
   int cloud_points = 2048;  // of clouds, 1 to 10,000,000
+  ReadLimits limits = {};   // while reading the objects
 
   // Throws InputError naming the option, its value and the allowed range.
   void validate() const;

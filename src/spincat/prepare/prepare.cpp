@@ -1,7 +1,5 @@
 #include "spincat/prepare/prepare.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -11,7 +9,6 @@
 #include <variant>
 #include <vector>
 
-#include "spincat/error.h"
 #include "spincat/geometry/random.h"
 #include "spincat/prepare/external_surface.h"
 #include "spincat/prepare/normalise.h"
@@ -27,12 +24,6 @@ enum Purpose : std::uint64_t { kSurface = 1, kStretch = 2 };
 
 // Fewer points than this from outside (objects thinner than a pixel) say too little: all faces are sampled instead.
 constexpr std::size_t kFewestExternalPoints = 64;
-
-void check_range(const char* field, int value, int low, int high) {
-  if (value < low || value > high) {
-    throw InputError(fmt::format("{} {} is out of range ({} to {})", field, value, low, high));
-  }
-}
 
 // The surface found for an object, in a frame of moderate size, before the spin points are chosen.
 struct Surface {
@@ -161,12 +152,6 @@ OrientedPoints choose_spin_points(const SurfacePoints& points, const Similarity&
 }
 
 }  // namespace
-
-void PrepareSettings::validate() const {
-  check_range("number of surface points", points, 1, 10'000'000);
-  check_range("number of spin points", spin_points, 1, 10'000'000);
-  check_range("number of neighbours", neighbours, 3, 1'000);
-}
 
 PreparedObject prepare(const Object& object, const PrepareSettings& settings, std::uint64_t seed) {
   settings.validate();

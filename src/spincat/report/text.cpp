@@ -77,7 +77,7 @@ std::string model_text(const Model& model, std::size_t width) {
     const std::string fact = fmt::format("{:<{}}", key, kKey) + value;
     text += (width > 0 ? wrapped(fact, width, kKey) : fact) + "\n";
   };
-  add("made by", model.made_by);
+  add("made by", printable(model.made_by));
   add("trained on", printable(model.dataset));
   std::string categories;
   for (std::size_t c = 0; c < model.categories.size(); ++c) {

@@ -1,0 +1,221 @@
+#include "fuzz/readers.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "spincat/dataset/category_map.h"
+#include "spincat/dataset/dataset.h"
+#include "spincat/error.h"
+#include "spincat/io/formats.h"
+#include "spincat/io/magic.h"
+#include "spincat/io/organized_cloud.h"
+#include "spincat/parallel/journal.h"
+#include "spincat/parallel/packing.h"
+#include "spincat/pipeline/model.h"
+#include "spincat/pipeline/named_settings.h"
+#include "spincat/pipeline/settings_json.h"
+#include "spincat/pipeline/sweep_journal.h"
+
+namespace spincat::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A file with the given bytes, in memory where the system has a place for such files.
+class ShortFile {
+ public:
+  ShortFile(std::string_view bytes, std::string_view extension) {
+    static const fs::path kFolder = fs::is_directory("/dev/shm") ? "/dev/shm" : fs::temp_directory_path();
+    path_ = kFolder / ("spincat-fuzz-" + std::to_string(getpid()) + std::string(extension));
+    const int descriptor = open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+    const ssize_t written = write(descriptor, bytes.data(), bytes.size());
+    close(descriptor);
+    if (written != static_cast<ssize_t>(bytes.size())) {
+      throw std::runtime_error("cannot write " + path_.string());
+    }
+  }
+  ~ShortFile() { unlink(path_.c_str()); }
+  ShortFile(const ShortFile&) = delete;
+  ShortFile& operator=(const ShortFile&) = delete;
+
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+using Refusals = std::vector<std::string>;
+
+// Keeps what a reader says when it refuses its input, and sees to it that this is a line of text.
+template <class Read>
+void attempt(Read read, Refusals& refusals) {
+  try {
+    read();
+  } catch (const InputError& error) {
+    constexpr std::size_t kLongest = 1'200;
+    const std::string line = error.what();
+    if (error.problem().empty() || line.size() > kLongest ||
+        std::ranges::any_of(line, [](char c) { return (c >= 0 && c < ' ') || c == '\x7F'; })) {
+      throw std::logic_error("an error that is no line of text: " + line);
+    }
+    refusals.push_back(line);
+  }
+}
+
+std::string with_checksum(std::string bytes) {
+  const auto checksum =
+      static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+  return bytes.append(reinterpret_cast<const char*>(&checksum), sizeof(checksum));
+}
+
+template <Object (*read)(std::string_view, const ReadLimits&)>
+void read_object_file(std::string_view bytes, Refusals& refusals) {
+  attempt([&] { read(bytes, {}); }, refusals);
+}
+
+void read_pcd(std::string_view bytes, Refusals& refusals) {
+  attempt([&] { io::read_pcd(bytes, {}); }, refusals);
+  attempt([&] { read_organized_pcd(bytes); }, refusals);
+}
+
+void read_gltf(std::string_view bytes, Refusals& refusals) {
+  attempt([&] { io::read_gltf(bytes, "/nonexistent", {}); }, refusals);
+}
+
+void read_csv(std::string_view bytes, Refusals& refusals) {
+  const ShortFile file(bytes, ".csv");
+  attempt([&] { read_dataset({file.path()}); }, refusals);
+  attempt([&] { CategoryMap::read(file.path()); }, refusals);
+}
+
+void read_cla(std::string_view bytes, Refusals& refusals) {
+  const ShortFile file(bytes, ".cla");
+  const DatasetOptions options = {.models = file.path().parent_path(), .category_map = {}};
+  attempt([&] { read_dataset({file.path()}, options); }, refusals);
+}
+
+// The layout is that of io/record_file.h.
+std::string as_model(std::string_view content) {
+  const std::string_view kind = "model";
+  std::string bytes(kFileMagic);
+  bytes += Packer().add(static_cast<std::uint32_t>(kind.size())).take();
+  bytes += kind;
+  bytes += Packer().add(kModelVersion).add(content).take();
+  return with_checksum(bytes);
+}
+
+void read_model_file(std::string_view bytes, Refusals& refusals) {
+  for (const std::string& all : {std::string(bytes), as_model(bytes)}) {
+    attempt([&] { read_model(ShortFile(all, ".spincat").path()); }, refusals);
+  }
+}
+
+const RunIdentity kRun = {"settings", "data"};
+
+// Opens the journal, adds a task and opens it once more: the task must be there, and what was there before, too.
+void read_and_continue_journal(std::string_view bytes) {
+  const ShortFile file(bytes, ".journal");
+  std::size_t tasks = 0;
+  {
+    Journal journal(file.path(), kRun);
+    tasks = journal.size() + (journal.has(7, 7) ? 0 : 1);
+    journal.add(7, 7, "result");
+  }
+  const Journal again(file.path(), kRun);
+  if (again.size() != tasks || again.find(7, 7) != "result") {
+    throw std::logic_error("the journal lost a task");
+  }
+}
+
+// The head of a journal, whole, and then a task with these bytes and a right checksum.
+std::string as_journal(std::string_view bytes) {
+  const std::string_view magic("SPINCAT-JOURNAL\x01");
+  return with_checksum(Packer().add(magic).add(kRun.settings).add(kRun.data).take()) +
+         with_checksum(std::string(bytes));
+}
+
+void read_journal(std::string_view bytes, Refusals& refusals) {
+  for (const std::string& all : {std::string(bytes), as_journal(bytes)}) {
+    attempt([&] { read_and_continue_journal(all); }, refusals);
+  }
+}
+
+void read_and_continue_sweep(std::string_view bytes) {
+  const ShortFile file(bytes, ".journal");
+  const nlohmann::ordered_json identity = {{"sweep", 1}, {"settings", {{"seed", 1}}}};
+  const SweepPoint point{{"added"}, {}, {}, {}};
+  SweepJournal(file.path(), identity).add(point);
+  if (SweepJournal(file.path(), identity).find(point.values) == nullptr) {
+    throw std::logic_error("the journal lost a point");
+  }
+}
+
+void read_sweep(std::string_view bytes, Refusals& refusals) {
+  attempt([&] { read_and_continue_sweep(bytes); }, refusals);
+}
+
+// Settings as a model has them, or one of them as a user names it: NAME=VALUE.
+void read_settings_text(std::string_view bytes) {
+  if (const auto json = nlohmann::json::parse(bytes, nullptr, false); !json.is_discarded()) {
+    settings_from_json(json);
+    return;
+  }
+  const std::size_t equals = bytes.find('=');
+  with_setting(preset("default"), bytes.substr(0, equals),
+               equals == std::string_view::npos ? std::string_view() : bytes.substr(equals + 1));
+}
+
+void read_settings(std::string_view bytes, Refusals& refusals) {
+  attempt([&] { read_settings_text(bytes); }, refusals);
+}
+
+using Reader = std::pair<std::string_view, void (*)(std::string_view, Refusals&)>;
+
+constexpr std::array kReaders = {Reader{"off", read_object_file<io::read_off>},
+                                 Reader{"obj", read_object_file<io::read_obj>},
+                                 Reader{"ply", read_object_file<io::read_ply>},
+                                 Reader{"stl", read_object_file<io::read_stl>},
+                                 Reader{"pcd", read_pcd},
+                                 Reader{"xyz", read_object_file<io::read_xyz>},
+                                 Reader{"gltf", read_gltf},
+                                 Reader{"csv", read_csv},
+                                 Reader{"cla", read_cla},
+                                 Reader{"model", read_model_file},
+                                 Reader{"journal", read_journal},
+                                 Reader{"sweep", read_sweep},
+                                 Reader{"settings", read_settings}};
+
+}  // namespace
+
+const std::vector<std::string>& reader_names() {
+  static const std::vector<std::string> kNames = [] {
+    std::vector<std::string> names;
+    for (const auto& [name, read] : kReaders) {
+      names.emplace_back(name);
+    }
+    return names;
+  }();
+  return kNames;
+}
+
+std::vector<std::string> read_as(std::string_view reader, std::string_view bytes) {
+  for (const auto& [name, read] : kReaders) {
+    if (name == reader) {
+      Refusals refusals;
+      read(bytes, refusals);
+      return refusals;
+    }
+  }
+  throw std::invalid_argument("no reader is called " + std::string(reader));
+}
+
+}  // namespace spincat::test

@@ -1,0 +1,19 @@
+// Every reader of files, by its name: for the fuzz program and for the tests that feed them what it found.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace spincat::test {
+
+// off, obj, ply, stl, pcd, xyz, gltf, csv, cla, model, journal, sweep, settings
+const std::vector<std::string>& reader_names();
+
+// Hands the bytes to a reader; what it said where it refused them, nothing where it read them. Some are read twice:
+// model and journal also as the content of a file whose checksum is right, as nothing that changes bytes at random
+// would ever get past it; pcd also as a picture, csv also as a map of classes. journal and sweep are added to and read
+// once more. Throws std::logic_error when the reader breaks a promise, and whatever it throws but InputError.
+std::vector<std::string> read_as(std::string_view reader, std::string_view bytes);
+
+}  // namespace spincat::test

@@ -200,13 +200,28 @@ std::size_t check_length(RecordReader& reader) {
   return length;
 }
 
+// Of all binary blobs in it: nearly all of a large record.
+std::size_t blob_bytes(const json& content) {
+  if (content.is_binary()) {
+    return content.get_binary().size();
+  }
+  std::size_t sum = 0;
+  for (const json& member : content) {
+    sum += member.is_structured() || member.is_binary() ? blob_bytes(member) : 0;
+  }
+  return sum;
+}
+
 }  // namespace
 
 std::string pack_record(std::string_view kind, std::uint32_t version, const json& content) {
   if (!is_kind(kind)) {
     throw InputError(fmt::format("a kind of record is up to {} letters from a to z", kLongestKind));
   }
-  std::string bytes(kFileMagic);
+  constexpr std::size_t kRest = std::size_t{1} << 20;
+  std::string bytes;
+  bytes.reserve(blob_bytes(content) + kRest);  // growing would copy the blobs once more
+  bytes += kFileMagic;
   append_little_endian(bytes, static_cast<std::uint32_t>(kind.size()));
   bytes += kind;
   append_little_endian(bytes, version);

@@ -59,6 +59,13 @@ std::string packed(const Context& context) {
   return packer.take();
 }
 
+std::string gram_context() {
+  return packed([](Packer& packer) {
+    pack_expected({}, packer);
+    packer.add(KernelKind::linear);
+  });
+}
+
 // Ranks that serve as the command's do.
 class ServingRanks {
  public:
@@ -120,8 +127,7 @@ TEST(Teaching, RanksUseTheRowsTheyKept) {
   }
   KeptData kept;
   EXPECT_THROW(make_table_work(packed([&](Packer& packer) { pack_table(table, packer); }), kept), RunError);
-  const std::string context = packed([](Packer& packer) { pack_expected({}, packer); }) + '\0';
-  EXPECT_THROW(make_gram_work(context, kept), RunError);
+  EXPECT_THROW(make_gram_work(gram_context(), kept), RunError);
   kept.rows.emplace(60, 2);
   for (std::uint32_t i = 0; i < 30; ++i) {
     std::vector<FeatureVector> features(2);
@@ -166,8 +172,15 @@ TEST(Trials, AreTheSameFromWhatARankKeeps) {
 
   KeptData kept;
   make_table_work(packed([&](Packer& packer) { pack_table(data.table, packer); }), kept);
-  make_gram_keeping_work(packed([&](Packer& packer) { pack_gram(teacher.gram(), packer); }), kept);
-  const Work work = make_trial_work(packed([&](Packer& packer) { pack_trials(data, teacher.gram(), settings, true, packer); }), kept);
+  const std::string trials = packed([&](Packer& packer) { pack_trials(data, teacher.gram(), settings, true, packer); });
+  const RankWork gram = make_gram_work(gram_context(), kept);
+  const std::vector<GramTask> strips = gram_tasks(data.table, KernelKind::linear);
+  for (std::size_t i = 0; i < strips.size(); ++i) {
+    EXPECT_THROW(make_trial_work(trials, kept), RunError) << "without strip " << i;
+    gram.keep(i, gram.work(pack(strips[i])));
+  }
+  EXPECT_EQ(kept.gram.blocks[0], teacher.gram().blocks[0]);
+  const Work work = make_trial_work(trials, kept);
   const Trial found = unpack_trial(work(pack(split)), 3);
   EXPECT_EQ(found.confusion, expected.confusion);
   EXPECT_EQ(found.named, expected.named);

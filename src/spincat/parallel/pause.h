@@ -7,8 +7,8 @@
 namespace spincat {
 
 // Not at all while something happens, a moment while large messages are on their way (MPI moves them on only while it
-// is called, some megabytes at a time), then longer and longer, up to a millisecond: a rank that only waits uses two or
-// three percent of a core.
+// is called, some megabytes at a time), then longer and longer, up to two milliseconds: a rank that only waits uses a
+// percent or two of a core, and whoever works has two tasks (task_farm.cpp), so that it does not wait for us.
 class Pause {
  public:
   using Clock = std::chrono::steady_clock;
@@ -34,7 +34,7 @@ class Pause {
  private:
   static constexpr std::chrono::microseconds kShortest{20};
   static constexpr std::chrono::microseconds kTransfer{50};
-  static constexpr std::chrono::microseconds kLongest{1000};
+  static constexpr std::chrono::microseconds kLongest{2000};
   static constexpr std::chrono::milliseconds kTransferPatience{20};
   std::chrono::microseconds pause_ = kShortest;
   Clock::time_point last_;

@@ -26,7 +26,6 @@ WorkFactory pipeline_work() {
       {kClassifyTasks, make_classify_work},
       {kTestedTasks, make_tested_work},
       {kTableTasks, [kept](std::string_view context) { return make_table_work(context, *kept); }},
-      {kGramKeepingTasks, [kept](std::string_view context) { return make_gram_keeping_work(context, *kept); }},
       {kGramTasks, [kept](std::string_view context) { return make_gram_work(context, *kept); }},
       {kJudgesTasks, [kept](std::string_view context) { return make_judges_work(context, *kept); }},
       {kTrialTasks, [kept](std::string_view context) { return make_trial_work(context, *kept); }}};

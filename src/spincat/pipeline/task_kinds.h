@@ -12,7 +12,6 @@ inline constexpr const char* kClassifyTasks = "names of objects";
 inline constexpr const char* kDescribeTasks = "feature vectors of objects";
 inline constexpr const char* kTestedTasks = "feature vectors of test objects";
 inline constexpr const char* kTableTasks = "a table to keep";
-inline constexpr const char* kGramKeepingTasks = "inner products to keep";
 inline constexpr const char* kGramTasks = "inner products";
 inline constexpr const char* kJudgesTasks = "judges";
 inline constexpr const char* kTrialTasks = "splits";

@@ -156,22 +156,6 @@ FeatureTable unpack_table(Unpacker& fields, std::optional<TableRows> rows) {
 
 }  // namespace
 
-void pack_gram(const SharedGram& gram, Packer& packer) {
-  packer.add(static_cast<std::uint32_t>(gram.blocks.size()));
-  for (const Eigen::MatrixXf& block : gram.blocks) {
-    pack_matrix(packer, block);
-  }
-}
-
-SharedGram unpack_gram(Unpacker& fields) {
-  SharedGram gram;
-  const auto blocks = fields.get<std::uint32_t>();
-  for (std::uint32_t b = 0; b < blocks; ++b) {
-    gram.blocks.push_back(unpack_matrix<Eigen::MatrixXf>(fields));
-  }
-  return gram;
-}
-
 std::vector<GramTask> gram_tasks(const FeatureTable& table, KernelKind kind) {
   const std::size_t matrices = gram_columns(kind, table.blocks, table.features.cols()).size();
   const auto strips = static_cast<std::uint32_t>(gram_strips(table.features.rows()));
@@ -186,6 +170,15 @@ std::vector<GramTask> gram_tasks(const FeatureTable& table, KernelKind kind) {
 
 std::string pack(const GramTask& task) {
   return Packer().add(task.matrix).add(task.strip).take();
+}
+
+SharedGram unfilled_gram(const FeatureTable& table, KernelKind kind) {
+  SharedGram gram;
+  const Eigen::Index rows = table.features.rows();
+  for (std::size_t i = 0; i < gram_columns(kind, table.blocks, table.features.cols()).size(); ++i) {
+    gram.blocks.emplace_back(rows, rows);
+  }
+  return gram;
 }
 
 void put_strip(const GramTask& task, std::string_view result, SharedGram& gram) {
@@ -269,7 +262,8 @@ void pack_expected(const SharedGram& gram, Packer& packer) {
 }
 
 const KeptData& expected_of(Unpacker& fields, const KeptData& kept) {
-  if (kept.data.table.objects.empty() || kept.gram.blocks.size() != fields.get<std::uint32_t>()) {
+  const bool all_strips = std::ranges::find(kept.no_strip, true) == kept.no_strip.end();
+  if (kept.data.table.objects.empty() || kept.gram.blocks.size() != fields.get<std::uint32_t>() || !all_strips) {
     throw RunError("this rank could not keep what it was given");
   }
   return kept;
@@ -283,21 +277,24 @@ Work make_table_work(std::string_view context, KeptData& kept) {
   return {};
 }
 
-Work make_gram_keeping_work(std::string_view context, KeptData& kept) {
-  Unpacker fields(context);
-  kept.gram = unpack_gram(fields);
-  return {};
-}
-
-Work make_gram_work(std::string_view context, const KeptData& kept) {
+RankWork make_gram_work(std::string_view context, KeptData& kept) {
   Unpacker fields(context);
   const FeatureTable& table = expected_of(fields, kept).data.table;
-  return gram_work(table, fields.get<KernelKind>());
+  const auto kind = fields.get<KernelKind>();
+  const std::vector<GramTask> tasks = gram_tasks(table, kind);
+  kept.gram = unfilled_gram(table, kind);
+  kept.no_strip.assign(tasks.size(), true);
+  RankWork work = gram_work(table, kind);
+  work.keep = [&kept, tasks](std::size_t i, std::string_view result) {
+    put_strip(tasks.at(i), result, kept.gram);
+    kept.no_strip[i] = false;
+  };
+  return work;
 }
 
 Work make_judges_work(std::string_view context, const KeptData& kept) {
   Unpacker fields(context);
-  const auto& [rows, data, gram] = expected_of(fields, kept);
+  expected_of(fields, kept);
   JudgeSettings settings;
   settings.kernel = fields.get<KernelKind>();
   settings.c = fields.get<double>();
@@ -308,7 +305,7 @@ Work make_judges_work(std::string_view context, const KeptData& kept) {
     plan.taught = fields.get_values<std::uint32_t>();
     plan.judged = fields.get_values<std::uint32_t>();
   }
-  return judges_work(data.table, gram, settings, std::move(lessons));
+  return judges_work(kept.data.table, kept.gram, settings, std::move(lessons));
 }
 
 }  // namespace spincat

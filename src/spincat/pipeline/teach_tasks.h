@@ -22,14 +22,13 @@ namespace spincat {
 // What a rank keeps from one job to the next.
 struct KeptData {
   std::optional<TableRows> rows;  // of objects that were described, until they are a table
-  EvaluationData data;  // the table; the rest where an evaluation is on
-  SharedGram gram;
+  EvaluationData data;            // the table; the rest where an evaluation is on
+  SharedGram gram;                // of the table, strip by strip
+  std::vector<bool> no_strip;     // by gram_tasks(): not there yet
 };
 
 // Sent once, kept by the others: of objects only their categories, and the features only where they do not have them.
 void pack_table(const FeatureTable& table, Packer& packer);
-void pack_gram(const SharedGram& gram, Packer& packer);
-SharedGram unpack_gram(Unpacker& fields);
 
 // One strip of one of the matrices of a SharedGram.
 struct GramTask {
@@ -40,7 +39,9 @@ struct GramTask {
 // All of them, the longest first.
 std::vector<GramTask> gram_tasks(const FeatureTable& table, KernelKind kind);
 std::string pack(const GramTask& task);
-// Puts the result of such a task into `gram`, whose matrices have their sizes.
+// All of the table's, still to be filled.
+SharedGram unfilled_gram(const FeatureTable& table, KernelKind kind);
+// Puts the result of such a task into it.
 void put_strip(const GramTask& task, std::string_view result, SharedGram& gram);
 Work gram_work(const FeatureTable& table, KernelKind kind);
 
@@ -79,8 +80,7 @@ const KeptData& expected_of(Unpacker& fields, const KeptData& kept);
 
 // The same works on other ranks, from what they keep.
 Work make_table_work(std::string_view context, KeptData& kept);
-Work make_gram_keeping_work(std::string_view context, KeptData& kept);
-Work make_gram_work(std::string_view context, const KeptData& kept);
+RankWork make_gram_work(std::string_view context, KeptData& kept);
 Work make_judges_work(std::string_view context, const KeptData& kept);
 
 }  // namespace spincat

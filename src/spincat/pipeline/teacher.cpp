@@ -65,9 +65,6 @@ Teacher::Teacher(const FeatureTable& table, const JudgeSettings& settings, TaskF
   if (table.local_size == 0 && may_share_gram(table.features.rows(), static_cast<Eigen::Index>(matrices))) {
     compute_gram(progress);
   }
-  if (shared) {
-    farm.share(kGramKeepingTasks, [&](Packer& packer) { pack_gram(own_gram_, packer); });
-  }
 }
 
 Teacher::Teacher(const FeatureTable& table, const SharedGram& gram, const JudgeSettings& settings, int threads)
@@ -75,11 +72,7 @@ Teacher::Teacher(const FeatureTable& table, const SharedGram& gram, const JudgeS
 
 void Teacher::compute_gram(const Progress& progress) {
   const std::vector<GramTask> tasks = gram_tasks(table_, settings_.kernel);
-  const Eigen::Index rows = table_.features.rows();
-  for (const GramTask& task : tasks) {
-    own_gram_.blocks.resize(std::max<std::size_t>(own_gram_.blocks.size(), task.matrix + 1),
-                            Eigen::MatrixXf(rows, rows));
-  }
+  own_gram_ = unfilled_gram(table_, settings_.kernel);
   Job job;
   job.kind = kGramTasks;
   job.in_journal = false;
@@ -91,6 +84,7 @@ void Teacher::compute_gram(const Progress& progress) {
   job.tasks = tasks.size();
   job.task = [&](std::size_t i) { return pack(tasks[i]); };
   job.deliver = [&](std::size_t i, const std::string& result) { put_strip(tasks[i], result, own_gram_); };
+  job.tells_all = [](std::string_view) { return true; };  // all ranks teach with them
   farm_->run(job, telling(progress, "comparing objects", tasks.size()));
 }
 

@@ -79,12 +79,13 @@ class MpiCommunicator final : public Communicator {
     given_up_.resize(static_cast<std::size_t>(size_), false);
   }
 
-  // Sends what is to be sent, and answers for a moment what the other side of the network still asks: MPICH over TCP
+  // Sends what is to be sent, and answers for a moment what the other side of a network still asks: MPICH over TCP
   // otherwise hangs at its end, where one rank asks and the other no longer listens.
   ~MpiCommunicator() override {
     const bool all_there = std::ranges::find(given_up_, true) == given_up_.end();
-    const auto start = std::chrono::steady_clock::now();
-    while (all_there && (has_outgoing() || std::chrono::steady_clock::now() - start < kLastAnswers)) {
+    const bool network = ranks_on_host_ < size_;
+    const auto end = std::chrono::steady_clock::now() + (network ? kLastAnswers : std::chrono::milliseconds(0));
+    while (all_there && (has_outgoing() || std::chrono::steady_clock::now() < end)) {
       move_on();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }

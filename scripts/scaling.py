@@ -88,9 +88,9 @@ def run(arguments, ranks, threads, mpi):
     return seconds, result.stderr.strip().splitlines()[-1:] if ranks > 1 else []
 
 
-def dense(file, folder, more=(), bin_size="0.1rel"):
+def dense(file, folder, more=(), bin_size="0.1rel", width=IMAGE_WIDTH):
     """An image at each point of the object; the usual bins see the whole of it."""
-    return ["spin", str(file), "-o", str(folder / "out.npy"), "--bin-size", bin_size, "--image-width", str(IMAGE_WIDTH),
+    return ["spin", str(file), "-o", str(folder / "out.npy"), "--bin-size", bin_size, "--image-width", str(width),
             *more]
 
 
@@ -260,8 +260,8 @@ def divisions(options, folder):
     rows = []
     workers = (options.most_workers, 1)
     for name, make in [(f"one object of {points} points, encoded",
-                        lambda divide: dense(file, folder, ["--encode", "pooled-pyramid", "--image-width", "16",
-                                                            "--divide", divide]))] + (
+                        lambda divide: dense(file, folder, ["--encode", "pooled-pyramid", "--divide", divide],
+                                              width=16))] + (
             [("training", lambda divide: training(options.objects, folder, ["--copies", "1", "--divide", divide]))]
             if options.objects else []):
         times = {}

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <functional>
 #include <map>
+#include <new>
 #include <thread>
 #include <vector>
 
@@ -83,6 +84,15 @@ class Ranks {
   ThreadCommunicator ranks_;
   std::vector<std::map<std::size_t, std::string>> kept_;
   std::vector<std::thread> servers_;
+};
+
+// Of silence, while this object lives.
+class Deadline {
+ public:
+  explicit Deadline(const char* seconds) { setenv("SPINCAT_DEADLINE", seconds, 1); }
+  ~Deadline() { unsetenv("SPINCAT_DEADLINE"); }
+  Deadline(const Deadline&) = delete;
+  Deadline& operator=(const Deadline&) = delete;
 };
 
 struct Outcome {
@@ -201,7 +211,7 @@ TEST(TaskFarm, WhatDeliverAndTickThrowEndsTheJob) {
 }
 
 TEST(TaskFarm, ALostRankCostsNothingButTime) {
-  setenv("SPINCAT_DEADLINE", "0.3", 1);
+  const Deadline deadline("0.3");
   std::atomic<int> begun = 0;
   std::shared_ptr<Wires> wires;
   Ranks others(3, 1, [&] {
@@ -230,6 +240,7 @@ TEST(TaskFarm, ALostRankCostsNothingButTime) {
 }
 
 TEST(TaskFarm, WhoSpeaksAgainTakesPartAgain) {
+  const Deadline deadline("0.05");
   std::atomic<int> begun = 0;
   Ranks others(2, 1, [&] { ++begun; });
   Outcome outcome;
@@ -252,18 +263,48 @@ TEST(TaskFarm, WhoSpeaksAgainTakesPartAgain) {
   };
   farm.run(job);
   expect_squares(outcome, 2'000);
-  EXPECT_GE(at_return, 0);
+  ASSERT_GE(at_return, 0);
+  EXPECT_GT(begun, at_return);
+  EXPECT_GT(farm.report().handed_out_again, 0U);
 }
 
 TEST(TaskFarm, ARankThatCannotDoTheWorkIsDoneWithout) {
+  const Deadline deadline("0.05");  // it says nothing more, and is not lost
   Ranks others(3);
   TaskFarm farm(others.communicator());
   Outcome outcome;
   const std::vector<int> numbers = numbers_up_to(50);
   Job job = squares(numbers, outcome);
   job.kind = "something else";
+  job.work = [](std::string_view task) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    return square("=", task);
+  };
   farm.run(job);
   expect_squares(outcome, 50);
+  const FarmReport report = farm.report();
+  for (const std::size_t rank : {1U, 2U}) {
+    EXPECT_FALSE(report.ranks[rank].lost);
+    EXPECT_EQ(report.ranks[rank].refusal, "not known");
+  }
+  EXPECT_NE(report.text().find("; rank 1 could not take part: not known"), std::string::npos) << report.text();
+}
+
+// Its host may lack what ours has.
+TEST(TaskFarm, WhatAnotherRankCannotDoIsDoneHere) {
+  for (const bool memory : {false, true}) {
+    Ranks others(3, 1, [memory] {
+      if (memory) {
+        throw std::bad_alloc();
+      }
+      throw InputError("no such file");
+    });
+    TaskFarm farm(others.communicator());
+    Outcome outcome;
+    const std::vector<int> numbers = numbers_up_to(100);
+    farm.run(squares(numbers, outcome));
+    expect_squares(outcome, 100);
+  }
 }
 
 TEST(TaskFarm, TellsAllRanksWhatAnyHasFound) {
@@ -335,6 +376,20 @@ TEST(TaskFarm, GoesOnWhereTheJournalEnds) {
   farm.run(squares(numbers, second));
   expect_squares(second, 60);
   EXPECT_EQ(farm.report().resumed, had);
+  {  // the same run, but what stands at the first job's place is another one of as many tasks
+    Journal other(dir.path() / "k", identity);
+    SerialCommunicator alone;
+    for (const int shift : {0, 1}) {
+      TaskFarm farm_again(alone);
+      farm_again.use_journal(&other);
+      std::vector<int> shifted = numbers;
+      shifted[30] += shift;
+      Outcome found;
+      farm_again.run(squares(shifted, found));
+      EXPECT_EQ(found.results[30], fmt::format("={}", shifted[30] * shifted[30]));
+      EXPECT_EQ(farm_again.report().resumed, 0U);
+    }
+  }
   Outcome again;  // another job of the same run: not the first one's results
   farm.run(squares(numbers, again));
   expect_squares(again, 60);

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "spincat/parallel/farm_messages.h"
@@ -15,6 +16,7 @@ struct TaskFarm::Rank {
   int threads = 0;            // once it has said so
   bool ready = false;         // for the job that is on
   bool refused = false;       // cannot do the job that is on
+  std::string refusal;        // why, the last time
   bool lost = false;          // has been silent for too long
   bool left = false;          // has said good-bye
   bool given_up = false;      // nobody waits for it any more

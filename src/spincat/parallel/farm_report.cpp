@@ -49,8 +49,14 @@ std::string FarmReport::text() const {
   if (resumed > 0) {
     line += fmt::format("; {} from the journal", counted(resumed, "task"));
   }
-  return line + (handed_out_again > 0 ? fmt::format("; {} handed out again", counted(handed_out_again, "task"))
-                                      : "; nothing handed out again");
+  line += handed_out_again > 0 ? fmt::format("; {} handed out again", counted(handed_out_again, "task"))
+                               : "; nothing handed out again";
+  for (std::size_t r = 0; r < ranks.size(); ++r) {
+    if (!ranks[r].refusal.empty()) {
+      return line + fmt::format("; rank {} could not take part: {}", r, ranks[r].refusal);
+    }
+  }
+  return line;
 }
 
 }  // namespace spincat

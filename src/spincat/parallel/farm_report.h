@@ -13,6 +13,7 @@ struct FarmReport {
     int threads = 0;            // 0 when it never took part
     double busy_seconds = 0.0;  // added up over its threads
     bool lost = false;
+    std::string refusal;  // why it could not take part in a job, the last time
   };
 
   std::vector<Rank> ranks;

@@ -39,15 +39,6 @@ bool checks(std::string_view bytes) {
   return stored == checksum_of(bytes.substr(0, bytes.size() - kChecksum));
 }
 
-// FNV-1a, from where another text ended.
-std::uint64_t mixed(std::uint64_t hash, std::string_view bytes) {
-  hash ^= 0xcbf29ce484222325U;
-  for (const char c : bytes) {
-    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  }
-  return hash;
-}
-
 std::string head_of(const RunIdentity& identity) {
   return with_checksum(Packer().add(kMagic).add(identity.settings).add(identity.data).take());
 }
@@ -192,15 +183,23 @@ void Journal::fail(const char* what) const {
   throw RunError(file_.string(), fmt::format("{}: {}", what, std::generic_category().message(errno)));
 }
 
-std::uint64_t job_key(std::uint64_t place, std::string_view kind, std::uint64_t tasks) {
-  return mixed(mixed(0, kind), fmt::format("|{}|{}", place, tasks));
+std::uint64_t hash_of(std::string_view bytes, std::uint64_t before) {
+  std::uint64_t hash = before ^ 0xcbf29ce484222325U;
+  for (const char c : bytes) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  }
+  return hash;
+}
+
+std::uint64_t job_key(std::uint64_t place, std::string_view kind, std::uint64_t tasks, std::uint64_t content) {
+  return hash_of(fmt::format("|{}|{}|{:x}", place, tasks, content), hash_of(kind));
 }
 
 void FilesIdentity::add(const std::filesystem::path& file) {
   struct stat status = {};
-  hash_ = mixed(hash_, file.string());
+  hash_ = hash_of(file.string(), hash_);
   if (::stat(file.c_str(), &status) == 0) {
-    hash_ = mixed(hash_, fmt::format("|{}|{}.{}\n", status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec));
+    hash_ = hash_of(fmt::format("|{}|{}.{}\n", status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec), hash_);
   }
   ++files_;
 }

@@ -58,9 +58,13 @@ class Journal {
   std::map<std::pair<std::uint64_t, std::uint64_t>, Place> records_;
 };
 
-// How a journal knows a job of a run: by its place in it, what it does, and into how many tasks it was cut. A run with
-// another number of ranks may cut otherwise, and then does not find these tasks.
-std::uint64_t job_key(std::uint64_t place, std::string_view kind, std::uint64_t tasks);
+// FNV-1a, from where another text ended.
+std::uint64_t hash_of(std::string_view bytes, std::uint64_t before = 0);
+
+// How a journal knows a job of a run: by its place in it, what it does, into how many tasks it was cut, and the hash of
+// all that its results depend on. A run with another number of ranks may cut otherwise, and then does not find these
+// tasks.
+std::uint64_t job_key(std::uint64_t place, std::string_view kind, std::uint64_t tasks, std::uint64_t content);
 
 // Names, sizes and times of last change of files, as one short text for RunIdentity::data. Files that are not there
 // count as such.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <csignal>
 #include <map>
 #include <memory>
 #include <optional>
@@ -43,7 +42,7 @@ class TaskFarm::Run {
       : farm_(farm), job_(job), tick_(tick), number_(++farm.job_), board_(job.tasks, window()) {
     if (job.in_journal && farm_.journal_ != nullptr) {
       journal_ = farm_.journal_;
-      journal_job_ = job_key(farm_.journaled_jobs_++, job.kind, job.tasks);
+      journal_job_ = job_key(farm_.journaled_jobs_++, job.kind, job.tasks, hash_of_job());
     }
   }
 
@@ -107,6 +106,20 @@ class TaskFarm::Run {
     }
   }
 
+  // Of all that its results depend on: another job may stand at this place when the journal is used again, as where an
+  // object can be read now and could not be then.
+  std::uint64_t hash_of_job() const {
+    Packer packer;
+    if (job_.context) {
+      job_.context(packer);
+    }
+    std::uint64_t hash = hash_of(packer.take());
+    for (std::size_t task = 0; task < job_.tasks; ++task) {
+      hash = hash_of(job_.task(task), hash);
+    }
+    return hash;
+  }
+
   void say(std::size_t other, farm::Tag tag, std::string bytes) const {
     farm_.ranks_.send(static_cast<int>(other) + 1, tag, shared(std::move(bytes)));
   }
@@ -154,7 +167,10 @@ class TaskFarm::Run {
         }
         break;
       case farm::kRefusal:
-        rank.refused = rank.refused || fields.get<std::uint32_t>() == number_;
+        if (fields.get<std::uint32_t>() == number_) {
+          rank.refused = true;
+          rank.refusal = fields.get_text();
+        }
         break;
       case farm::kResult: {
         std::uint32_t job = 0;
@@ -172,8 +188,15 @@ class TaskFarm::Run {
     }
   }
 
-  // The first result of a task counts.
+  // The first result of a task counts. What another rank could not do is done here: its host may lack what ours has,
+  // and only so is a problem the same for any ranks.
   void accept(int from, TaskResult result) {
+    if (from != kHere && result.outcome != TaskResult::Outcome::done) {
+      if (!board_.is_done(result.task)) {
+        do_here(result.task);
+      }
+      return;
+    }
     if (!board_.finish(result.task, from)) {
       return;
     }
@@ -212,9 +235,12 @@ class TaskFarm::Run {
       const std::size_t task = board_.delivered();
       const auto found = waiting_.find(task);
       if (found == waiting_.end()) {
-        std::string result = journal_->find(journal_job_, task).value_or("");
-        tell_others(kHere, task, result);
-        job_.deliver(task, std::move(result));
+        std::optional<std::string> result = journal_->find(journal_job_, task);
+        if (!result) {
+          throw RunError("the journal can no longer be read");
+        }
+        tell_others(kHere, task, *result);
+        job_.deliver(task, *std::move(result));
       } else {
         TaskResult result = std::move(found->second);
         waiting_.erase(found);
@@ -259,14 +285,18 @@ class TaskFarm::Run {
       if (!task) {
         break;
       }
-      if (!crew_) {
-        crew_ = std::make_unique<ThreadCrew>(job_.work, farm_.threads_);
-      }
-      crew_->give(*task, job_.task(*task));
-      ++here_;
+      do_here(*task);
       handed = true;
     }
     return handed;
+  }
+
+  void do_here(std::size_t task) {
+    if (!crew_) {
+      crew_ = std::make_unique<ThreadCrew>(job_.work, farm_.threads_);
+    }
+    crew_->give(task, job_.task(task));
+    ++here_;
   }
 
   // Takes tasks back from ranks that say nothing.
@@ -282,7 +312,8 @@ class TaskFarm::Run {
       if (stalled) {
         rank.last_heard = now;
       }
-      if (!rank.lost && (now - rank.last_heard > silence_deadline() || rank.is_gone())) {
+      const bool is_away = rank.left || now - rank.last_heard > silence_deadline() || rank.is_gone();
+      if (!rank.lost && !rank.refused && is_away) {
         rank.lost = true;
         rank.tasks = 0;
         farm_.handed_out_again_ += board_.take_back(static_cast<int>(r) + 1);
@@ -415,9 +446,9 @@ FarmReport TaskFarm::report() {
     }
   }
   FarmReport report;
-  report.ranks.push_back({farm::own_greeting().host, threads_, busy_here_, false});
+  report.ranks.push_back({farm::own_greeting().host, threads_, busy_here_, false, {}});
   for (const Rank& rank : others_) {
-    report.ranks.push_back({rank.greeting.host, rank.threads, rank.busy_seconds, rank.lost});
+    report.ranks.push_back({rank.greeting.host, rank.threads, rank.busy_seconds, rank.lost, rank.refusal});
   }
   report.seconds = seconds_;
   report.handed_out_again = handed_out_again_;

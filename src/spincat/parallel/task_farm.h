@@ -23,7 +23,7 @@ using Context = std::function<void(Packer& packer)>;
 // Tasks of one kind.
 struct Job {
   std::string kind;                      // by which other ranks know the work
-  Context context;                       // what they need for it; asked for only where there are any
+  Context context;                       // what they need for it; also tells the journal which job this is
   Work work;                             // the same work, here
   std::size_t tasks = 0;
   std::function<std::string(std::size_t task)> task;  // what is to be done, as bytes

@@ -29,7 +29,19 @@ class Server {
     say(farm::kHello, pack(farm::own_greeting()));
   }
 
+  // Says good-bye whatever ends it, so that nobody waits for it.
   void run(const std::function<void()>& keep_going) {
+    try {
+      work(keep_going);
+    } catch (...) {
+      leave();
+      throw;
+    }
+    leave();
+  }
+
+ private:
+  void work(const std::function<void()>& keep_going) {
     Pause pause;
     while (!quit_ && !is_orphan()) {
       keep_going();
@@ -37,11 +49,13 @@ class Server {
       beat();
       rest(pause.next(happened, ranks_.under_way() > 0));
     }
+  }
+
+  void leave() {
     crew_.reset();
     say(farm::kBye, {});
   }
 
- private:
   void say(farm::Tag tag, std::string bytes) {
     ranks_.send(0, tag, std::make_shared<const std::string>(std::move(bytes)));
     last_said_ = Clock::now();

@@ -10,6 +10,7 @@
 #include "spincat/pipeline/describe_tasks.h"
 #include "spincat/pipeline/packed_features.h"
 #include "spincat/pipeline/packed_limits.h"
+#include "spincat/pipeline/rank_problems.h"
 #include "spincat/pipeline/task_kinds.h"
 
 namespace spincat {
@@ -62,8 +63,8 @@ Work make_classify_work(std::string_view context) {
   Unpacker fields(context);
   const ReadLimits limits = unpack_limits(fields);
   const auto model = std::make_shared<const Model>(read_model(std::filesystem::path(fields.rest())));
-  return
-      [model, limits](std::string_view file) { return pack(answer_for(*model, std::filesystem::path(file), limits)); };
+  return throwing_problems(
+      [model, limits](std::string_view file) { return pack(answer_for(*model, std::filesystem::path(file), limits)); });
 }
 
 void classify_files(TaskFarm& farm, const ClassifyJob& job, const std::function<void(std::size_t i, Answer)>& deliver,

@@ -8,6 +8,7 @@
 #include "spincat/error.h"
 #include "spincat/io/read_object.h"
 #include "spincat/pipeline/packed_features.h"
+#include "spincat/pipeline/rank_problems.h"
 #include "spincat/pipeline/packed_limits.h"
 #include "spincat/pipeline/settings_json.h"
 #include "spincat/pipeline/stopwatch.h"
@@ -110,7 +111,8 @@ RankWork make_describe_work(std::string_view context, KeptData& kept) {
   const int views = fields.get<int>();
   const auto rows_to_keep = fields.get<std::uint64_t>();
   const ReadLimits limits = unpack_limits(fields);
-  RankWork result = describe_work(settings_from_json(nlohmann::json::parse(fields.get_text())), views, limits);
+  const Settings settings = settings_from_json(nlohmann::json::parse(fields.get_text()));
+  RankWork result = throwing_problems(describe_work(settings, views, limits));
   if (rows_to_keep > 0) {
     kept = {};
     kept.rows.emplace(rows_to_keep, static_cast<std::size_t>(views));

@@ -17,6 +17,7 @@
 #include "spincat/parallel/task_farm.h"
 #include "spincat/pipeline/describe_tasks.h"
 #include "spincat/pipeline/packed_limits.h"
+#include "spincat/pipeline/rank_problems.h"
 #include "spincat/pipeline/settings_json.h"
 #include "spincat/pipeline/stopwatch.h"
 #include "spincat/pipeline/task_kinds.h"
@@ -157,7 +158,7 @@ Work make_tested_work(std::string_view context) {
   options.noise = fields.get<double>();
   options.cloud_points = fields.get<int>();
   options.limits = unpack_limits(fields);
-  return tested_work(settings, options);
+  return throwing_problems(tested_work(settings, options));
 }
 
 TestTable describe_tested(std::span<const DatasetObject> objects, std::size_t feature_length, const Settings& settings,

@@ -31,9 +31,8 @@ constexpr int kPiecesAtOnce = 4;                      // to one rank
 struct Outgoing {
   int tag = 0;
   SharedBytes bytes;
-  std::string first;      // head and first bytes
+  std::string first;      // head and first bytes; empty until it is sent
   std::size_t begun = 0;  // bytes of `bytes` that were handed to MPI
-  bool first_begun = false;
 };
 
 struct Piece {
@@ -109,12 +108,6 @@ class MpiCommunicator final : public Communicator {
   void send(int to, int tag, SharedBytes bytes) override {
     auto message = std::make_shared<Outgoing>();
     message->tag = tag;
-    const std::uint64_t length = bytes->size();
-    const std::size_t in_first = std::min(bytes->size(), kPiece - kHead);
-    message->first.resize(kHead + in_first);
-    std::memcpy(message->first.data(), &length, kHead);
-    std::memcpy(message->first.data() + kHead, bytes->data(), in_first);
-    message->begun = in_first;
     message->bytes = std::move(bytes);
     out_[static_cast<std::size_t>(to)].waiting.push_back(std::move(message));
     move_on_sending(to);
@@ -169,16 +162,24 @@ class MpiCommunicator final : public Communicator {
     }
   }
 
+  // Not before it is sent: many ranks may wait for the same bytes.
+  static void pack_first(Outgoing& message) {
+    const std::uint64_t length = message.bytes->size();
+    const std::size_t in_first = std::min(message.bytes->size(), kPiece - kHead);
+    message.first.resize(kHead + in_first);
+    std::memcpy(message.first.data(), &length, kHead);
+    std::memcpy(message.first.data() + kHead, message.bytes->data(), in_first);
+  }
+
   static void start_piece(int to, OutBox& box) {
     const std::shared_ptr<Outgoing> message = box.waiting.front();
-    const char* from = message->first.data();
-    std::size_t size = message->first.size();
-    if (message->first_begun) {
-      from = message->bytes->data() + message->begun;
-      size = std::min(kPiece, message->bytes->size() - message->begun);
-      message->begun += size;
+    const bool is_first = message->first.empty();
+    if (is_first) {
+      pack_first(*message);
     }
-    message->first_begun = true;
+    const std::size_t size = is_first ? message->first.size() : std::min(kPiece, message->bytes->size() - message->begun);
+    const char* const from = is_first ? message->first.data() : message->bytes->data() + message->begun;
+    message->begun += is_first ? size - kHead : size;
     Piece& piece = box.under_way.emplace_back();
     piece.message = message;
     MPI_Isend(from, static_cast<int>(size), MPI_BYTE, to, message->tag, MPI_COMM_WORLD, &piece.request);
@@ -215,6 +216,7 @@ class MpiCommunicator final : public Communicator {
       if (!box.in_message) {
         std::memcpy(&box.length, piece.bytes.data(), kHead);
         box.message = {from, piece.tag, {}};
+        box.in_message = true;
         box.message.bytes.reserve(box.length);
         box.message.bytes.append(piece.bytes, kHead);
       } else {

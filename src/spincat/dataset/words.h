@@ -12,11 +12,15 @@ namespace spincat {
 // Text from a file, fit for a one-line message: bytes that would break the line escaped, and cut short.
 inline std::string shown(std::string_view text, std::size_t longest = 400) {
   std::string result;
-  for (const char c : text.substr(0, longest)) {
+  for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    result += byte < 0x20 || byte == 0x7F ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
+    const std::string next = byte < 0x20 || byte == 0x7F ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
+    if (result.size() + next.size() > longest) {
+      return result + "...";
+    }
+    result += next;
   }
-  return result + (text.size() > longest ? "..." : "");
+  return result;
 }
 
 inline std::string in_quotes(std::string_view text) {

@@ -93,7 +93,7 @@ TEST_F(JournalTest, RefusesOtherRunsAndOtherFiles) {
   dir_.write("short.txt", "notes");
   test::expect_error<InputError>([&] { Journal(dir_.path() / "short.txt", kRun); }, "is no journal of spincat");
   EXPECT_EQ(Journal(file(), kRun).size(), 1U);  // refusing has changed nothing
-  test::expect_error<RunError>([&] { Journal(dir_.path() / "no" / "folder", kRun); }, "cannot write the journal");
+  test::expect_error<RunError>([&] { Journal(dir_.path() / "no" / "folder", kRun); }, "cannot write: no such file");
 }
 
 TEST_F(JournalTest, TwoRunsDoNotShareOne) {

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -16,6 +15,7 @@
 #include <system_error>
 
 #include "spincat/io/file_descriptor.h"
+#include "spincat/io/file_lock.h"
 
 namespace spincat {
 namespace {
@@ -31,14 +31,6 @@ std::string prefix() {
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.') c = '_';
   }
   return fmt::format(".spincat-{}-", name);
-}
-
-bool lock(int descriptor, int how) {
-  int result = 0;
-  do {
-    result = ::flock(descriptor, how);
-  } while (result != 0 && errno == EINTR);
-  return result == 0;
 }
 
 // Whether `name` is still the name of the open file.

@@ -1,16 +1,12 @@
 #include "spincat/parallel/journal.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/stat.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
-#include <system_error>
+#include <utility>
 
 #include "spincat/error.h"
 #include "spincat/parallel/packing.h"
@@ -46,45 +42,14 @@ std::string head_of(const RunIdentity& identity) {
 }  // namespace
 
 Journal::Journal(std::filesystem::path file, const RunIdentity& identity) : file_(std::move(file)) {
-  open_and_lock();
-  try {
-    begin(identity);
-  } catch (...) {
-    ::close(descriptor_);
-    throw;
-  }
-}
-
-void Journal::open_and_lock() {
-  struct stat status = {};
-  do {  // again, where another run has finished and removed the file since it was opened
-    if (descriptor_ >= 0) {
-      ::close(descriptor_);
-    }
-    descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (descriptor_ < 0) {
-      fail("cannot write the journal");
-    }
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-      ::close(descriptor_);
-      throw RunError(file_.string(), "is in use by another run");
-    }
-  } while (::fstat(descriptor_, &status) == 0 && status.st_nlink == 0);
-}
-
-Journal::~Journal() {
-  ::close(descriptor_);
+  begin(identity);
 }
 
 // Checks the head of a journal that is there, or writes that of a new one.
 void Journal::begin(const RunIdentity& identity) {
-  struct stat status = {};
-  if (::fstat(descriptor_, &status) != 0) {
-    fail("cannot read the journal");
-  }
   const std::string head = head_of(identity);
-  const auto size = static_cast<std::uint64_t>(status.st_size);
-  const std::string there = read_at(0, std::min<std::uint64_t>(size, head.size())).value_or("");
+  const std::uint64_t size = file_.size();
+  const std::string there = file_.read(0, std::min<std::uint64_t>(size, head.size())).value_or("");
   if (there == head) {
     read_records(head.size(), size);
     return;
@@ -93,23 +58,21 @@ void Journal::begin(const RunIdentity& identity) {
     const std::string magic = Packer().add(kMagic).take();
     const std::string settings = Packer().add(kMagic).add(identity.settings).take();
     if (there.compare(0, magic.size(), magic) != 0) {
-      throw InputError(file_.string(), "is no journal of spincat");
+      throw InputError(file_.name().string(), "is no journal of spincat");
     }
-    throw InputError(file_.string(),
+    throw InputError(file_.name().string(),
                      fmt::format("is the journal of a run with other {}; give the same command as then, remove it, or "
                                  "name another one by --journal",
                                  there.compare(0, settings.size(), settings) != 0 ? "settings" : "data"));
   }
-  if (::ftruncate(descriptor_, 0) != 0) {
-    fail("cannot write the journal");
-  }
-  write_all(head, 0);
+  file_.cut(0);
+  file_.write(0, head);
   end_ = head.size();
 }
 
 void Journal::read_records(std::uint64_t offset, std::uint64_t file_size) {
   while (offset + kRecordHead + kChecksum <= file_size) {
-    const std::string head = read_at(offset, kRecordHead).value_or("");
+    const std::string head = file_.read(offset, kRecordHead).value_or("");
     if (head.size() < kRecordHead) {
       break;
     }
@@ -120,7 +83,7 @@ void Journal::read_records(std::uint64_t offset, std::uint64_t file_size) {
     if (length > file_size - offset - kRecordHead - kChecksum) {
       break;
     }
-    const auto whole = read_at(offset, kRecordHead + length + kChecksum);
+    const auto whole = file_.read(offset, kRecordHead + length + kChecksum);
     if (!whole || !checks(*whole)) {
       break;
     }
@@ -128,59 +91,19 @@ void Journal::read_records(std::uint64_t offset, std::uint64_t file_size) {
     offset += whole->size();
   }
   end_ = offset;
-  if (::ftruncate(descriptor_, static_cast<off_t>(end_)) != 0) {
-    fail("cannot write the journal");
-  }
+  file_.cut(end_);
 }
 
 std::optional<std::string> Journal::find(std::uint64_t job, std::uint64_t task) const {
   const auto found = records_.find({job, task});
-  return found == records_.end() ? std::nullopt : read_at(found->second.offset, found->second.length);
+  return found == records_.end() ? std::nullopt : file_.read(found->second.offset, found->second.length);
 }
 
 void Journal::add(std::uint64_t job, std::uint64_t task, std::string_view result) {
   const std::string record = with_checksum(Packer().add(job).add(task).add(result).take());
-  write_all(record, end_);
+  file_.write(end_, record);
   records_[{job, task}] = {end_ + kRecordHead, result.size()};
   end_ += record.size();
-}
-
-void Journal::remove() {
-  ::unlink(file_.c_str());
-}
-
-void Journal::write_all(std::string_view bytes, std::uint64_t offset) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-    if (written < 0 && errno == EINTR) {
-      continue;
-    }
-    if (written < 0) {
-      fail("cannot write the journal");
-    }
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-    offset += static_cast<std::uint64_t>(written);
-  }
-}
-
-std::optional<std::string> Journal::read_at(std::uint64_t offset, std::uint64_t length) const {
-  std::string bytes(length, '\0');
-  std::size_t got = 0;
-  while (got < length) {
-    const ssize_t read = ::pread(descriptor_, bytes.data() + got, length - got, static_cast<off_t>(offset + got));
-    if (read < 0 && errno == EINTR) {
-      continue;
-    }
-    if (read <= 0) {
-      return std::nullopt;
-    }
-    got += static_cast<std::size_t>(read);
-  }
-  return bytes;
-}
-
-void Journal::fail(const char* what) const {
-  throw RunError(file_.string(), fmt::format("{}: {}", what, std::generic_category().message(errno)));
 }
 
 std::uint64_t hash_of(std::string_view bytes, std::uint64_t before) {

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <utility>
 
+#include "spincat/io/locked_file.h"
+
 namespace spincat {
 
 // Which run a journal belongs to. Results are only good for the same program, command, settings and data.
@@ -25,9 +27,6 @@ class Journal {
   // Opens the journal at `file` or begins one. Throws InputError when the file is no journal or belongs to a run with
   // other settings or data, RunError when it cannot be written or another run is using it.
   Journal(std::filesystem::path file, const RunIdentity& identity);
-  ~Journal();
-  Journal(const Journal&) = delete;
-  Journal& operator=(const Journal&) = delete;
 
   std::size_t size() const { return records_.size(); }  // finished tasks
   bool has(std::uint64_t job, std::uint64_t task) const { return records_.contains({job, task}); }
@@ -37,7 +36,7 @@ class Journal {
   void add(std::uint64_t job, std::uint64_t task, std::string_view result);
 
   // Removes the file: the run is complete.
-  void remove();
+  void remove() { file_.remove(); }
 
  private:
   struct Place {
@@ -45,15 +44,10 @@ class Journal {
     std::uint64_t length;
   };
 
-  void open_and_lock();
   void begin(const RunIdentity& identity);
   void read_records(std::uint64_t offset, std::uint64_t file_size);
-  void write_all(std::string_view bytes, std::uint64_t offset);
-  std::optional<std::string> read_at(std::uint64_t offset, std::uint64_t length) const;
-  [[noreturn]] void fail(const char* what) const;
 
-  std::filesystem::path file_;
-  int descriptor_ = -1;
+  LockedFile file_;
   std::uint64_t end_ = 0;  // of the last whole record
   std::map<std::pair<std::uint64_t, std::uint64_t>, Place> records_;
 };

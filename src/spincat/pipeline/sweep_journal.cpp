@@ -1,18 +1,10 @@
 #include "spincat/pipeline/sweep_journal.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <string_view>
 #include <utility>
 
 #include "spincat/error.h"
-#include "spincat/io/file.h"
 
 namespace spincat {
 namespace {
@@ -48,6 +40,10 @@ SweepPoint point_of(const Json& json) {
            s.at(4).get<double>()}};
 }
 
+std::string as_line(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 // The first thing in which two sweeps differ.
 std::string difference(const Json& theirs, const Json& ours) {
   for (const auto& [key, value] : ours.items()) {
@@ -63,71 +59,55 @@ std::string difference(const Json& theirs, const Json& ours) {
 
 }  // namespace
 
-SweepJournal::SweepJournal(std::filesystem::path file, const Json& identity) : file_(std::move(file)) {
-  if (file_.empty()) {
+SweepJournal::SweepJournal(const std::filesystem::path& file, const Json& identity) {
+  if (file.empty()) {
     return;
   }
-  descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) {
-    throw RunError(file_.string(), fmt::format("cannot write: {}", std::strerror(errno)));
+  file_.emplace(file);
+  const std::optional<std::string> text = file_->read(0, file_->size());
+  if (!text) {
+    throw InputError(file.string(), "cannot be read");
   }
-  try {
-    begin(identity);
-  } catch (...) {
-    close(descriptor_);
-    throw;
-  }
-}
-
-SweepJournal::~SweepJournal() {
-  if (descriptor_ >= 0) {
-    close(descriptor_);
-  }
-}
-
-void SweepJournal::begin(const Json& identity) {
-  if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    throw RunError(file_.string(), "is in use by another sweep");
-  }
-  read(read_file(file_), identity);
+  read(*text, identity);
   if (whole_ == 0) {
-    append(identity.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+    append(as_line(identity));
   }
 }
 
 void SweepJournal::read(const std::string& text, const Json& identity) {
+  const std::string file = file_->name().string();
   std::size_t line = 0;
   for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', whole_)) {
     ++line;
     if (end - whole_ > kLongestLine) {
-      throw InputError(file_.string(), fmt::format("line {} is longer than any of a sweep", line));
+      throw InputError(file, fmt::format("line {} is longer than any of a sweep", line));
     }
     const Json json = Json::parse(text.substr(whole_, end - whole_), nullptr, false);
     if (whole_ == 0) {
       if (!json.is_object() || !json.contains("sweep")) {
-        throw InputError(file_.string(), "is no journal of a sweep");
+        throw InputError(file, "is no journal of a sweep");
       }
       // As text: what was read has passed through it once.
-      if (const Json ours = Json::parse(identity.dump(-1, ' ', false, Json::error_handler_t::replace)); json != ours) {
-        throw InputError(file_.string(), fmt::format("is the journal of another sweep ({} differs): remove it, or name "
-                                                     "another file",
-                                                     difference(json, ours)));
+      if (const Json ours = Json::parse(as_line(identity)); json != ours) {
+        throw InputError(file, fmt::format("is the journal of another sweep ({} differs): remove it, or name "
+                                           "another file",
+                                           difference(json, ours)));
       }
     } else {
       try {
         SweepPoint point = point_of(json);
         if (point.values.size() > kMostValues) {
-          throw InputError(file_.string(), fmt::format("line {} is no point of a sweep", line));
+          throw InputError(file, fmt::format("line {} is no point of a sweep", line));
         }
         points_[point.values] = point;
       } catch (const Json::exception&) {
-        throw InputError(file_.string(), fmt::format("line {} is no point of a sweep", line));
+        throw InputError(file, fmt::format("line {} is no point of a sweep", line));
       }
     }
     whole_ = end + 1;
   }
   if (whole_ == 0 && !text.empty() && text[0] != '{') {
-    throw InputError(file_.string(), "is no journal of a sweep");
+    throw InputError(file, "is no journal of a sweep");
   }
 }
 
@@ -137,24 +117,16 @@ const SweepPoint* SweepJournal::find(const std::vector<std::string>& values) con
 }
 
 void SweepJournal::add(const SweepPoint& point) {
-  if (!file_.empty()) {
-    append(point_json(point).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+  if (file_) {
+    append(as_line(point_json(point)));
   }
   points_[point.values] = point;
 }
 
 void SweepJournal::append(const std::string& line) {
-  std::string_view rest = line;
-  bool good = ftruncate(descriptor_, static_cast<off_t>(whole_)) == 0;
-  while (good && !rest.empty()) {
-    const ssize_t written =
-        pwrite(descriptor_, rest.data(), rest.size(), static_cast<off_t>(whole_ + line.size() - rest.size()));
-    good = written >= 0 || errno == EINTR;
-    rest.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(written, 0)));
-  }
-  if (!good || fsync(descriptor_) != 0) {
-    throw RunError(file_.string(), fmt::format("cannot write: {}", std::strerror(errno)));
-  }
+  file_->cut(whole_);
+  file_->write(whole_, line);
+  file_->flush();
   whole_ += line.size();
 }
 

@@ -7,9 +7,11 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "spincat/io/locked_file.h"
 #include "spincat/pipeline/sweep.h"
 
 namespace spincat {
@@ -17,12 +19,9 @@ namespace spincat {
 class SweepJournal {
  public:
   // Reads the journal, or begins one where there is none. No file: nothing is kept. Throws InputError when the file is
-  // the journal of another sweep than `identity` or none at all, RunError when it cannot be written or another sweep is
+  // the journal of another sweep than `identity` or none at all, RunError when it cannot be written or another run is
   // using it.
-  SweepJournal(std::filesystem::path file, const nlohmann::ordered_json& identity);
-  ~SweepJournal();
-  SweepJournal(const SweepJournal&) = delete;
-  SweepJournal& operator=(const SweepJournal&) = delete;
+  SweepJournal(const std::filesystem::path& file, const nlohmann::ordered_json& identity);
 
   // The point with these values, where it is known.
   const SweepPoint* find(const std::vector<std::string>& values) const;
@@ -31,13 +30,11 @@ class SweepJournal {
   void add(const SweepPoint& point);
 
  private:
-  void begin(const nlohmann::ordered_json& identity);
   void read(const std::string& text, const nlohmann::ordered_json& identity);
   void append(const std::string& line);
 
-  std::filesystem::path file_;
-  int descriptor_ = -1;    // locked; -1 without a file
-  std::size_t whole_ = 0;  // bytes of whole lines
+  std::optional<LockedFile> file_;  // nothing: nothing is kept
+  std::size_t whole_ = 0;           // bytes of whole lines
   std::map<std::vector<std::string>, SweepPoint> points_;
 };
 

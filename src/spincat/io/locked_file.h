@@ -1,0 +1,42 @@
+// A file that one run at a time reads and writes in place: what journals are kept in.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace spincat {
+
+class LockedFile {
+ public:
+  // Opens `name`, or begins an empty file, and holds a lock on it (flock) until the end. Throws RunError when it cannot
+  // be opened for writing or another run holds the lock. A file system without locks lets everybody in.
+  explicit LockedFile(std::filesystem::path name);
+  ~LockedFile();
+  LockedFile(const LockedFile&) = delete;
+  LockedFile& operator=(const LockedFile&) = delete;
+
+  const std::filesystem::path& name() const { return name_; }
+  std::uint64_t size() const;
+
+  // The bytes from `offset` on; nothing where there are fewer or they cannot be read.
+  std::optional<std::string> read(std::uint64_t offset, std::uint64_t length) const;
+
+  // Each throws RunError when the system refuses.
+  void write(std::uint64_t offset, std::string_view bytes);
+  void cut(std::uint64_t size);
+  void flush();  // waits until all is on the disk
+
+  // Removes the name; the lock stays until the end.
+  void remove();
+
+ private:
+  [[noreturn]] void fail() const;
+
+  std::filesystem::path name_;
+  int descriptor_;
+};
+
+}  // namespace spincat

@@ -19,8 +19,6 @@ class Pause {
     if (happened) {
       last_ = now;
       pause_ = kShortest;
-    }
-    if (happened) {
       return std::chrono::microseconds(0);
     }
     if (under_way && now - last_ < kTransferPatience) {  // a message to a lost rank never ends

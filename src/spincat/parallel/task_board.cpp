@@ -1,7 +1,5 @@
 #include "spincat/parallel/task_board.h"
 
-#include <algorithm>
-
 namespace spincat {
 
 TaskBoard::TaskBoard(std::size_t tasks, std::size_t window) : window_(window), done_(tasks, false) {}
@@ -65,12 +63,6 @@ std::size_t TaskBoard::take_back(int rank) {
     }
   }
   return count;
-}
-
-bool TaskBoard::has_tasks(int rank) const {
-  return std::ranges::any_of(pending_, [&](const auto& pending) {
-    return std::ranges::find(pending.second.ranks, rank) != pending.second.ranks.end();
-  });
 }
 
 }  // namespace spincat

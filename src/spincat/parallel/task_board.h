@@ -38,8 +38,6 @@ class TaskBoard {
   // Opens all tasks again that this rank alone had; how many these were.
   std::size_t take_back(int rank);
 
-  bool has_tasks(int rank) const;
-
  private:
   struct Pending {
     Time since;

@@ -1,13 +1,11 @@
 #include "spincat/pipeline/teach_tasks.h"
 
 #include <algorithm>
-#include <mutex>
 #include <optional>
 #include <tuple>
 #include <utility>
 
 #include "spincat/error.h"
-#include "spincat/pipeline/lesson.h"
 
 namespace spincat {
 namespace {
@@ -59,35 +57,6 @@ FoldedJudge unpack_folded(Unpacker& fields) {
   return judge;
 }
 
-// Lessons that are made when they are first needed.
-class Lessons {
- public:
-  Lessons(const FeatureTable& table, const SharedGram& gram, const JudgeSettings& settings,
-          std::vector<LessonPlan> plans)
-      : table_(table), gram_(gram), settings_(settings), plans_(std::move(plans)), made_(plans_.size()) {}
-
-  const LessonPlan& plan(std::size_t i) const { return plans_.at(i); }
-  const FeatureTable& table() const { return table_; }
-
-  const Lesson& lesson(std::size_t i) {
-    Made& made = made_.at(i);
-    std::call_once(made.once, [&] { made.lesson.emplace(table_, gram_, plans_[i].taught, settings_); });
-    return *made.lesson;
-  }
-
- private:
-  struct Made {
-    std::once_flag once;
-    std::optional<Lesson> lesson;
-  };
-
-  const FeatureTable& table_;
-  const SharedGram& gram_;
-  const JudgeSettings settings_;
-  const std::vector<LessonPlan> plans_;
-  std::vector<Made> made_;
-};
-
 std::string do_judges(Lessons& lessons, std::string_view bytes) {
   Unpacker fields(bytes);
   const auto number = fields.get<std::uint32_t>();
@@ -111,24 +80,6 @@ std::string do_judges(Lessons& lessons, std::string_view bytes) {
   }
   return packer.take();
 }
-
-}  // namespace
-
-void pack_table(const FeatureTable& table, Packer& packer) {
-  const auto& [objects, categories, skipped, features, blocks, local_size, words, seed, rows_per_object, tested_rows,
-               parts, encoding, kinds, seconds, described_as] = table;  // does not compile when a member is forgotten
-  static_cast<void>(std::tie(skipped, encoding, kinds, seconds));  // not for other ranks
-  packer.add(static_cast<std::uint32_t>(categories.size()));
-  const std::vector<std::uint32_t> labels = table.object_labels();
-  packer.add(std::span<const std::uint32_t>(labels)).add(std::span<const std::uint32_t>(blocks));
-  packer.add(local_size).add(words).add(seed).add(rows_per_object).add(tested_rows).add(parts);
-  packer.add(std::span<const std::uint32_t>(described_as));
-  if (described_as.empty()) {
-    pack_matrix(packer, features);
-  }
-}
-
-namespace {
 
 FeatureTable unpack_table(Unpacker& fields, std::optional<TableRows> rows) {
   FeatureTable table;
@@ -155,6 +106,20 @@ FeatureTable unpack_table(Unpacker& fields, std::optional<TableRows> rows) {
 }
 
 }  // namespace
+
+void pack_table(const FeatureTable& table, Packer& packer) {
+  const auto& [objects, categories, skipped, features, blocks, local_size, words, seed, rows_per_object, tested_rows,
+               parts, encoding, kinds, seconds, described_as] = table;  // does not compile when a member is forgotten
+  static_cast<void>(std::tie(skipped, encoding, kinds, seconds));       // not for other ranks
+  packer.add(static_cast<std::uint32_t>(categories.size()));
+  const std::vector<std::uint32_t> labels = table.object_labels();
+  packer.add(std::span<const std::uint32_t>(labels)).add(std::span<const std::uint32_t>(blocks));
+  packer.add(local_size).add(words).add(seed).add(rows_per_object).add(tested_rows).add(parts);
+  packer.add(std::span<const std::uint32_t>(described_as));
+  if (described_as.empty()) {
+    pack_matrix(packer, features);
+  }
+}
 
 std::vector<GramTask> gram_tasks(const FeatureTable& table, KernelKind kind) {
   const std::size_t matrices = gram_columns(kind, table.blocks, table.features.cols()).size();
@@ -251,10 +216,8 @@ void pack_lessons(const SharedGram& gram, const JudgeSettings& settings, std::sp
   }
 }
 
-Work judges_work(const FeatureTable& table, const SharedGram& gram, const JudgeSettings& settings,
-                 std::vector<LessonPlan> lessons) {
-  const auto all = std::make_shared<Lessons>(table, gram, settings, std::move(lessons));
-  return [all](std::string_view task) { return do_judges(*all, task); };
+Work judges_work(std::shared_ptr<Lessons> lessons) {
+  return [lessons = std::move(lessons)](std::string_view task) { return do_judges(*lessons, task); };
 }
 
 void pack_expected(const SharedGram& gram, Packer& packer) {
@@ -305,7 +268,7 @@ Work make_judges_work(std::string_view context, const KeptData& kept) {
     plan.taught = fields.get_values<std::uint32_t>();
     plan.judged = fields.get_values<std::uint32_t>();
   }
-  return judges_work(kept.data.table, kept.gram, settings, std::move(lessons));
+  return judges_work(std::make_shared<Lessons>(kept.data.table, kept.gram, settings, std::move(lessons)));
 }
 
 }  // namespace spincat

@@ -15,6 +15,7 @@
 #include "spincat/parallel/task.h"
 #include "spincat/pipeline/evaluate.h"
 #include "spincat/pipeline/feature_table.h"
+#include "spincat/pipeline/lessons.h"
 #include "spincat/pipeline/table_rows.h"
 
 namespace spincat {
@@ -45,12 +46,6 @@ SharedGram unfilled_gram(const FeatureTable& table, KernelKind kind);
 void put_strip(const GramTask& task, std::string_view result, SharedGram& gram);
 Work gram_work(const FeatureTable& table, KernelKind kind);
 
-// A training, and the objects whose margins are wanted; with none, the judges themselves are.
-struct LessonPlan {
-  std::vector<std::uint32_t> taught;
-  std::vector<std::uint32_t> judged;
-};
-
 // Some judges of one of the lessons.
 struct JudgesTask {
   std::uint32_t lesson = 0;
@@ -69,9 +64,7 @@ FeatureMatrix unpack_margins(std::string_view result, std::size_t objects);
 // `gram` is what the others keep.
 void pack_lessons(const SharedGram& gram, const JudgeSettings& settings, std::span<const LessonPlan> lessons,
                   Packer& packer);
-// The lessons' common parts are made when their first task comes.
-Work judges_work(const FeatureTable& table, const SharedGram& gram, const JudgeSettings& settings,
-                 std::vector<LessonPlan> lessons);
+Work judges_work(std::shared_ptr<Lessons> lessons);
 
 // For a context: by which a rank knows whether it keeps what it should.
 void pack_expected(const SharedGram& gram, Packer& packer);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <memory>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -103,14 +104,15 @@ CalibratedJudges Teacher::teach_calibrated(std::span<const std::uint32_t> object
 // The first lesson's judges are wanted, of the others their margins. All are one job: so nobody waits between them.
 CalibratedJudges Teacher::do_lessons(std::span<const LessonPlan> lessons, const Progress& progress) {
   const std::vector<JudgesTask> tasks = judges_tasks(table_, settings_.kernel, lessons);
-  const Lesson lesson(table_, *gram_, lessons[0].taught, settings_);
-  JudgeCollector judges(lesson, table_.categories.size());
+  const auto made =
+      std::make_shared<Lessons>(table_, *gram_, settings_, std::vector<LessonPlan>(lessons.begin(), lessons.end()));
+  JudgeCollector judges(made->lesson(0), table_.categories.size());
   FoldCounter folds(table_);
   Job job;
   job.kind = kJudgesTasks;
   job.in_journal = false;
   job.context = [&](Packer& packer) { pack_lessons(*gram_, settings_, lessons, packer); };
-  job.work = judges_work(table_, *gram_, settings_, {lessons.begin(), lessons.end()});
+  job.work = judges_work(made);
   job.tasks = tasks.size();
   job.task = [&](std::size_t i) { return pack(tasks[i]); };
   job.deliver = [&](std::size_t i, const std::string& result) {

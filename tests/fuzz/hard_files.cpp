@@ -1,0 +1,263 @@
+#include "fuzz/hard_files.h"
+
+#include <zlib.h>
+
+#include <cstdint>
+#include <ostream>
+#include <string_view>
+
+namespace spincat::test {
+namespace {
+
+using namespace std::string_literals;
+
+// `head`, then `part` again and again, then `tail`, of about so many bytes.
+std::string repeated(std::size_t size, std::string_view head, std::string_view part, std::string_view tail = "") {
+  std::string text(head);
+  text.reserve(size + part.size() + tail.size());
+  while (text.size() < size) {
+    text += part;
+  }
+  return text.append(tail);
+}
+
+Hard repeats(const std::string& reader, const std::string& name, const std::string& head, const std::string& part,
+             const std::string& tail = "") {
+  return {reader, name, [=](std::size_t size) { return repeated(size, head, part, tail); }};
+}
+
+// The same with the number of parts where `head` and `part` have a '#'; parts are counted from 0.
+std::string numbered(std::size_t size, std::string_view head, std::string_view part) {
+  std::string body;
+  std::size_t count = 0;
+  const auto put = [](std::string& text, std::string_view pattern, std::size_t number) {
+    for (const char c : pattern) {
+      c == '#' ? text += std::to_string(number) : text += c;
+    }
+  };
+  for (; body.size() < size; ++count) {
+    put(body, part, count);
+  }
+  std::string text;
+  put(text, head, count);
+  return text + body;
+}
+
+Hard counts(const std::string& reader, const std::string& name, const std::string& head, const std::string& part) {
+  return {reader, name, [=](std::size_t size) { return numbered(size, head, part); }};
+}
+
+template <class T>
+std::string as_bytes(T value) {
+  return {reinterpret_cast<const char*>(&value), sizeof(T)};
+}
+
+// Points of three bytes, packed as well as can be: 264 bytes out of 3.
+std::string packed_pcd(std::size_t size) {
+  const std::string packed = repeated(size, "\2\0\0\0"s, "\xE0\xFF\0"s);
+  const std::size_t unpacked = 3 + (packed.size() - 4) / 3 * 264;
+  const std::size_t points = unpacked / 3;
+  return "FIELDS x y z\nSIZE 1 1 1\nTYPE I I I\nPOINTS " + std::to_string(points) + "\nDATA binary_compressed\n" +
+         as_bytes(static_cast<std::uint32_t>(packed.size())) + as_bytes(static_cast<std::uint32_t>(unpacked)) + packed;
+}
+
+std::string binary_stl(std::size_t size) {
+  std::string triangles;
+  float corner = 0;
+  while (triangles.size() < size) {
+    triangles += std::string(12, '\0');
+    for (int i = 0; i < 9; ++i) {
+      triangles += as_bytes(corner += 1);
+    }
+    triangles += "\0\0"s;
+  }
+  return std::string(80, ' ') + as_bytes(static_cast<std::uint32_t>(triangles.size() / 50)) + triangles;
+}
+
+// One polygon whose corners take a byte each.
+std::string ply_of_tiny_indices(std::size_t size) {
+  return "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty char x\nproperty char y\nproperty char z\n"
+         "element face 1\nproperty list uint uchar vertex_indices\nend_header\n"s +
+         std::string(9, '\1') + as_bytes(static_cast<std::uint32_t>(size)) + std::string(size, '\2');
+}
+
+// Half of the file is a buffer, the other half names it as often as can be: `part` goes `where`.
+std::string repeating_gltf(std::size_t size, std::string_view nodes, std::string_view primitives) {
+  const std::size_t vertices = size / 2 / 16;
+  const std::string count = std::to_string(vertices);
+  const std::string length = std::to_string(12 * vertices);
+  std::string text = R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":)" + length +
+                     R"(,"uri":"data:application/octet-stream;base64,)" + std::string(16 * vertices, 'A') +
+                     R"("}],"bufferViews":[{"buffer":0,"byteLength":)" + length +
+                     R"(}],"accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":)" + count + "}";
+  text += R"(],"meshes":[{"primitives":[{"attributes":{"POSITION":0}})";
+  const std::size_t rest = primitives.empty() ? 0 : (size - text.size()) / primitives.size();
+  for (std::size_t i = 0; i < rest; ++i) {
+    text += primitives;
+  }
+  text += R"(]}],"nodes":[{"mesh":0})";
+  while (!nodes.empty() && text.size() < size) {
+    text += nodes;
+  }
+  return text + "]}";
+}
+
+// Nodes each below the one before.
+std::string chain_gltf(std::size_t size) {
+  std::string text = R"({"asset":{"version":"2.0"},"nodes":[{"children":[1]})";
+  for (std::size_t i = 2; text.size() < size; ++i) {
+    text += R"(,{"children":[)" + std::to_string(i) + "]}";
+  }
+  return text + "]}";
+}
+
+std::string big_endian(std::uint32_t value) {
+  std::string bytes;
+  for (int shift = 24; shift >= 0; shift -= 8) {
+    bytes += static_cast<char>(value >> shift & 0xFF);
+  }
+  return bytes;
+}
+
+std::string cbor_array(std::size_t size, std::string_view item) {
+  const auto items = static_cast<std::uint32_t>(size / item.size());
+  std::string text = "\x9A" + big_endian(items);
+  for (std::uint32_t i = 0; i < items; ++i) {
+    text += item;
+  }
+  return text;
+}
+
+// The head that readers.cpp asks for, and records of no result.
+std::string short_records(std::size_t size) {
+  const auto with_checksum = [](std::string bytes) {
+    const auto checksum =
+        static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+    return bytes + as_bytes(checksum);
+  };
+  const auto text = [](std::string_view words) {
+    return as_bytes(static_cast<std::uint64_t>(words.size())) + std::string(words);
+  };
+  std::string journal = with_checksum(text("SPINCAT-JOURNAL\x01") + text("settings") + text("data"));
+  for (std::uint64_t i = 0; journal.size() < size; ++i) {
+    journal += with_checksum(as_bytes(i) + as_bytes(i) + text(""));
+  }
+  return journal;
+}
+
+const std::string kPlyHead = "ply\nformat ascii 1.0\n";
+const std::string kPlyVertices = "property float x\nproperty float y\nproperty float z\n";
+const std::string kSweep = "{\"sweep\":1,\"settings\":{\"seed\":1}}\n";
+
+std::vector<Hard> object_files() {
+  return {
+      counts("off", "one polygon", "OFF 3 1\n0 0 0\n1 0 0\n0 1 0\n#", " 1"),
+      counts("off", "vertices", "OFF # 0\n", "0 0 0\n"),
+      counts("off", "vertices with normals", "NOFF # 0\n", "0 0 0 0 0 1\n"),
+      counts("off", "faces of no corner", "OFF 1 # 0\n0 0 0\n", "0\n"),
+      counts("off", "triangles", "OFF 1 # 0\n0 0 0\n", "3 0 0 0\n"),
+      repeats("off", "comments", "OFF", "#\n"),
+      repeats("off", "a long word", "", "O"),
+      repeats("obj", "one polygon", "v 0 0 0\nf", " 1"),
+      repeats("obj", "triangles", "v 0 0 0\n", "f 1 1 1\n"),
+      repeats("obj", "vertices", "", "v 0 0 0\n"),
+      repeats("obj", "normals", "v 0 0 0\n", "vn 0 0 1\n"),
+      repeats("obj", "continued lines", "v 0 0 0\nf 1", "\\\n"),
+      repeats("obj", "backslashes", "v 0 0 0\nf 1", "\\ "),
+      counts("ply", "elements", kPlyHead, "element e# 0\n"),
+      counts("ply", "properties", kPlyHead + "element vertex 1\n", "property char p#\n"),
+      repeats("ply", "comments", kPlyHead, "comment\n"),
+      counts("ply", "vertices", kPlyHead + "element vertex #\n" + kPlyVertices + "end_header\n", "0 0 0\n"),
+      counts("ply", "empty lists",
+             kPlyHead + "element vertex 1\n" + kPlyVertices +
+                 "element face #\nproperty list uchar int vertex_index\nend_header\n0 0 0\n",
+             "0\n"),
+      {"ply", "indices of a byte", ply_of_tiny_indices},
+      repeats("stl", "one polygon", "solid\nfacet\nouter loop\n", "vertex 0 0 0\n", "endloop\nendsolid\n"),
+      counts("stl", "vertices of their own", "solid\nfacet\nouter loop\n", "vertex 0 0 #\n"),
+      repeats("stl", "empty loops", "solid\nfacet\n", "outer\nendloop\n", "endsolid\n"),
+      {"stl", "binary", binary_stl},
+      repeats("pcd", "fields", "FIELDS x y z", " a", "\nPOINTS 1\nDATA ascii\n0 0 0\n"),
+      counts("pcd", "points", "FIELDS x y z\nPOINTS #\nDATA ascii\n", "0 0 0\n"),
+      repeats("pcd", "values", "FIELDS x y z\nCOUNT 1 1 1000000\nPOINTS 1\nDATA ascii\n", "0 "),
+      {"pcd", "packed points", packed_pcd},
+      repeats("xyz", "points", "", "0 0 0\n"),
+      repeats("xyz", "points with normals", "", "0 0 0 0 0 1\n"),
+      repeats("xyz", "one line", "0 0 0", " 0"),
+      repeats("xyz", "separators", "0 0 0\n0", ","),
+  };
+}
+
+std::vector<Hard> gltf_files() {
+  return {
+      {"gltf", "nodes that show one mesh", [](std::size_t size) { return repeating_gltf(size, R"(,{"mesh":0})", ""); }},
+      {"gltf", "primitives of one accessor",
+       [](std::size_t size) { return repeating_gltf(size, "", R"(,{"attributes":{"POSITION":0}})"); }},
+      {"gltf", "one large buffer", [](std::size_t size) { return repeating_gltf(size, "", ""); }},
+      {"gltf", "empty nodes", [](std::size_t size) { return repeating_gltf(size, ",{}", ""); }},
+      {"gltf", "a chain of nodes", chain_gltf},
+      repeats("gltf", "children", R"({"asset":{"version":"2.0"},"nodes":[{"children":[0)", ",0", "]}]}"),
+      repeats("gltf", "numbers of no use", R"({"asset":{"version":"2.0"},"extras":[0)", ",0", "]}"),
+      repeats("gltf", "lists of no use", R"({"asset":{"version":"2.0"},"extras":[0)", ",[]", "]}"),
+      repeats("gltf", "deep lists", "", "["),
+      counts("gltf", "members", R"({"asset":{"version":"2.0"})", ",\"#\":0"),
+      repeats("gltf", "accessors", R"({"asset":{"version":"2.0"},"accessors":[{})", ",{}", "]}"),
+      repeats("gltf", "a long name", R"({"asset":{"version":"2.0","name":")", "a", "\"}}"),
+  };
+}
+
+std::vector<Hard> lists_and_records() {
+  return {
+      repeats("csv", "short rows", "path,category\n", "a,b\n"),
+      counts("csv", "rows", "path,category\n", "models/chairs/chair-#.off,chair\n"),
+      counts("csv", "categories", "path,category\n", "a,#\n"),
+      counts("csv", "classes", "class,category\n", "#,a\n"),
+      repeats("csv", "columns", "path,category", ","),
+      repeats("csv", "one field", "path,category\n\"", "a"),
+      repeats("csv", "a path of many folders", "path,category\n", "a/"),
+      repeats("csv", "comments", "path,category\n", "#\n"),
+      counts("cla", "models", "PSB 1\n1 #\na 0 #", "\n1"),
+      counts("cla", "classes", "PSB 1\n# 0", "\nc# 0 0"),
+      {"cla", "a chain of classes",
+       [](std::size_t size) {
+         std::string classes = "\n1 0 0";
+         std::size_t count = 1;
+         for (; classes.size() < size; ++count) {
+           classes += "\n" + std::to_string(count + 1) + " " + std::to_string(count) + " 0";
+         }
+         return "PSB 1\n" + std::to_string(count) + " 0" + classes;
+       }},
+      {"model", "a list of numbers", [](std::size_t size) { return cbor_array(size, "\1"); }},
+      {"model", "a list of empty lists", [](std::size_t size) { return cbor_array(size, "\x80"); }},
+      {"model", "a list of empty names", [](std::size_t size) { return cbor_array(size, "\x60"); }},
+      {"model", "a list of small maps", [](std::size_t size) { return cbor_array(size, "\xA1\x60\1"); }},
+      {"model", "deep lists", [](std::size_t size) { return std::string(size, '\x81'); }},
+      {"model", "one blob",
+       [](std::size_t size) {
+         return "\xA1\x60\x5A"s + big_endian(static_cast<std::uint32_t>(size)) + std::string(size, 'x');
+       }},
+      {"journal", "records of nothing", short_records},
+      {"sweep", "a line of lists", [](std::size_t size) { return repeated(size, kSweep, "[", "\n"); }},
+      {"sweep", "a line of numbers", [](std::size_t size) { return repeated(size, kSweep + "[0", ",0", "]\n"); }},
+      counts("sweep", "points", kSweep,
+             R"({"values":["#"],"mean_class_rate":[1,1,1,1],"overall_rate":[1,1,1,1],"seconds":[1,1,1,1,1]})"
+             "\n"),
+      repeats("settings", "a long value", "encoding=", "a"),
+  };
+}
+
+}  // namespace
+
+std::vector<Hard> hard_files() {
+  std::vector<Hard> all = object_files();
+  for (const auto& more : {gltf_files(), lists_and_records()}) {
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  return all;
+}
+
+std::ostream& operator<<(std::ostream& stream, const Hard& hard) {
+  return stream << hard.reader << ": " << hard.name;
+}
+
+}  // namespace spincat::test

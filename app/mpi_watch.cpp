@@ -145,6 +145,7 @@ std::unique_ptr<MpiWatch> watch_start(const Launch& launch, std::shared_ptr<Host
       give_up_start(launch, "a rank was lost");
     }
     if (host->stopped_for() > 5.0 || host->watched_for() > 30.0) {
+      host->kill_stopped();  // the launcher would wait for them for ever
       give_up_start(launch, "a rank did not answer");
     }
   });

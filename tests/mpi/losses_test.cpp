@@ -1,6 +1,9 @@
-// Ranks that are killed or stopped at random moments. SPINCAT_LOSSES says how often each kind is tried.
+// Ranks that are killed or stopped at random moments, of one dense object and of a training. SPINCAT_LOSSES says how
+// often each is tried.
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <ostream>
 #include <random>
 
 #include "mpi/launching.h"
@@ -8,25 +11,37 @@
 namespace spincat::test {
 namespace {
 
-class Losses : public Launching {
+struct Task {
+  std::string name;
+  std::string arguments;
+  std::string extension;  // of its result
+};
+
+std::ostream& operator<<(std::ostream& stream, const Task& task) {
+  return stream << task.name;
+}
+
+class Losses : public Launching, public testing::WithParamInterface<Task> {
  protected:
   void SetUp() override {
     make_scan("scan.off", 40);
-    ASSERT_EQ(alone("spin scan.off -o alone.npy " + kArguments).code, 0);
+    make_dataset(20);
+    ASSERT_EQ(alone(GetParam().arguments + " -o " + alone_).code, 0);
   }
 
   static int rounds() {
     const char* wanted = std::getenv("SPINCAT_LOSSES");
-    return wanted != nullptr ? std::atoi(wanted) : 2;
+    return wanted != nullptr ? std::atoi(wanted) : 1;
   }
 
   // Starts the command in the background; its exit code appears in a file.
   void start(const Mpi& mpi, int ranks) {
     fs::remove(dir_.path() / "code");
+    fs::remove(dir_.path() / ranks_);
     const std::string line = fmt::format(
-        "cd '{}' && (SPINCAT_DEADLINE=1 timeout -k 1 60 {} {} -n {} '{}' spin scan.off -o ranks.npy {} >.out 2>.err "
+        "cd '{}' && (SPINCAT_DEADLINE=1 timeout -k 1 60 {} {} -n {} '{}' {} -o {} >.out 2>.err "
         "</dev/null; echo $? >code.new; mv code.new code) >/dev/null 2>&1 &",
-        dir_.path().string(), mpi.launcher, mpi.recovery, ranks, SPINCAT_COMMAND, kArguments);
+        dir_.path().string(), mpi.launcher, mpi.recovery, ranks, SPINCAT_COMMAND, GetParam().arguments, ranks_);
     ASSERT_EQ(std::system(line.c_str()), 0);
   }
 
@@ -51,15 +66,30 @@ class Losses : public Launching {
     return found;
   }
 
-  // Sends a signal to a worker at a random moment after it was started; false when none was there any more.
-  bool hit(int signal) {
+  // Sends a signal to a worker at a random moment after two were seen, `latest` at the latest; false when it was no
+  // more.
+  bool hit(int signal, std::chrono::milliseconds latest) {
     std::vector<pid_t> found;
     for (int i = 0; i < 2'000 && found.size() < 2 && !fs::exists(dir_.path() / "code"); ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
       found = workers();
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(moment_(random_)));
+    std::uniform_int_distribution<std::int64_t> moment(0, latest.count());
+    std::this_thread::sleep_for(std::chrono::milliseconds(moment(random_)));
     return !found.empty() && kill(found[random_() % found.size()], signal) == 0;
+  }
+
+  // Starts the command until the signal found a worker: a run may end before it is sent.
+  void start_and_hit(const Mpi& mpi, int ranks, int signal) {
+    using namespace std::chrono_literals;
+    for (std::chrono::milliseconds latest = 1'500ms; latest > 1ms; latest /= 2) {
+      start(mpi, ranks);
+      if (hit(signal, latest)) {
+        return;
+      }
+      EXPECT_EQ(wait_for_code(), 0) << bytes(".err");
+    }
+    FAIL() << "no signal came in time";
   }
 
   int wait_for_code() const {
@@ -70,25 +100,21 @@ class Losses : public Launching {
     return code.empty() ? -1 : std::stoi(code);
   }
 
-  void expect_right() {
-    EXPECT_TRUE(bytes("ranks.npy") == bytes("alone.npy")) << bytes(".err");
-    fs::remove(dir_.path() / "ranks.npy");
-  }
+  void expect_right() { EXPECT_TRUE(bytes(ranks_) == bytes(alone_)) << bytes(".err"); }
 
-  const std::string kArguments = "--image-width 32 --threads 1";
+  const std::string alone_ = "alone" + GetParam().extension;
+  const std::string ranks_ = "ranks" + GetParam().extension;
   std::mt19937 random_{std::random_device{}()};
-  std::uniform_int_distribution<int> moment_{0, 900};  // milliseconds
 };
 
 // But for a rank that is lost while MPI itself starts: nothing is done yet, and the command says so.
-TEST_F(Losses, UnderOpenMpiCostNothingButTime) {
+TEST_P(Losses, UnderOpenMpiCostNothingButTime) {
   if (const std::string reason = reason_to_skip(kOpenMpi); !reason.empty()) {
     GTEST_SKIP() << reason;
   }
   for (const int signal : {SIGKILL, SIGSTOP}) {
     for (int round = 0; round < rounds(); ++round) {
-      start(kOpenMpi, 3);
-      hit(signal);
+      start_and_hit(kOpenMpi, 3, signal);
       int code = wait_for_code();
       if (bytes(".err").find("while MPI started") != std::string::npos) {
         start(kOpenMpi, 3);
@@ -101,23 +127,27 @@ TEST_F(Losses, UnderOpenMpiCostNothingButTime) {
 }
 
 // MPICH's launcher ends the whole run; the same command goes on from the journal.
-TEST_F(Losses, UnderMpichTheSameCommandGoesOn) {
+TEST_P(Losses, UnderMpichTheSameCommandGoesOn) {
   if (const std::string reason = reason_to_skip(kMpich); !reason.empty()) {
     GTEST_SKIP() << reason;
   }
   for (const int signal : {SIGKILL, SIGSTOP}) {
     for (int round = 0; round < rounds(); ++round) {
-      start(kMpich, 3);
-      hit(signal);
+      start_and_hit(kMpich, 3, signal);
       if (wait_for_code() != 0) {
         start(kMpich, 3);
         EXPECT_EQ(wait_for_code(), 0) << "signal " << signal << ", round " << round << "\n" << bytes(".err");
       }
       expect_right();
-      EXPECT_FALSE(fs::exists(dir_.path() / "ranks.npy.journal"));
+      EXPECT_FALSE(fs::exists(dir_.path() / (ranks_ + ".journal")));
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Tasks, Losses,
+                         testing::Values(Task{"spin", "spin scan.off --image-width 32 --threads 1", ".npy"},
+                                         Task{"train", "train boxes --threads 1", ".spincat"}),
+                         [](const auto& task) { return task.param.name; });
 
 }  // namespace
 }  // namespace spincat::test

@@ -22,7 +22,7 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"spin", {"geometry"}},
     {"encode", {"geometry", "spin"}},
     {"judge", {"encode"}},
-    {"parallel", {}},
+    {"parallel", {"io"}},
     {"camera", {"geometry", "io"}},
     {"pipeline", {"geometry", "io", "dataset", "prepare", "spin", "encode", "judge", "parallel", "camera"}},
     {"report", {"geometry", "dataset", "prepare", "spin", "judge", "camera", "pipeline"}},

@@ -4,7 +4,6 @@
 #include <zlib.h>
 
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -17,6 +16,7 @@
 #include "spincat/pipeline/classify.h"
 #include "spincat/pipeline/model.h"
 #include "support/expect_error.h"
+#include "support/float_blob.h"
 #include "support/temp_dir.h"
 
 namespace spincat {
@@ -53,13 +53,6 @@ Json content_of(const Model& model) {
   return unpack_record(read_file(dir / "m.spincat"), "model", kModelVersion);
 }
 
-Json floats(const std::vector<float>& values) {
-  Json::binary_t blob;
-  blob.resize(values.size() * sizeof(float));
-  std::memcpy(blob.data(), values.data(), blob.size());
-  return Json::binary(std::move(blob));
-}
-
 // What read_model says about a file whose checksum is right and whose content was changed, without the file's name.
 std::string problem_after(const std::function<void(Json&)>& change) {
   const TempDir dir;
@@ -93,15 +86,16 @@ TEST(HostileModel, FamiliarityThatDoesNotFitIsRefused) {
   EXPECT_EQ(problem_of("labels", Json::array({0, -1, 0})), "model: 'labels' does not hold 3 counts");
   EXPECT_EQ(problem_of("labels", Json::array({0, 1})), "model: 'objects' is of the wrong size");
   EXPECT_EQ(problem_of("labels", "0"), "model: 'labels' is no list");
-  EXPECT_EQ(problem_of("objects", floats({})), "model: 'objects' is of the wrong size");
-  EXPECT_EQ(problem_of("objects", floats(std::vector<float>(12))), "model: 'objects' is of the wrong size");
-  EXPECT_EQ(problem_of("objects", floats({1, 2, 3, 4, nan, 6, 7, 8, 9})),
+  EXPECT_EQ(problem_of("objects", test::float_blob({})), "model: 'objects' is of the wrong size");
+  EXPECT_EQ(problem_of("objects", test::float_blob(std::vector<float>(12))), "model: 'objects' is of the wrong size");
+  EXPECT_EQ(problem_of("objects", test::float_blob({1, 2, 3, 4, nan, 6, 7, 8, 9})),
             "model: 'objects' holds a number that is not finite");
-  EXPECT_EQ(problem_of("typical", floats({1})), "model: 'typical' does not hold 2 numbers");
-  EXPECT_EQ(problem_of("typical", floats({1, infinite})), "model: 'typical' holds a number that is not finite");
-  EXPECT_EQ(problem_of("spread", floats({1, 0})), "model: 'spread' is not above zero");
-  EXPECT_EQ(problem_of("spread", floats({1, -1})), "model: 'spread' is not above zero");
-  EXPECT_EQ(problem_of("spread", floats({1, nan})), "model: 'spread' holds a number that is not finite");
+  EXPECT_EQ(problem_of("typical", test::float_blob({1})), "model: 'typical' does not hold 2 numbers");
+  EXPECT_EQ(problem_of("typical", test::float_blob({1, infinite})),
+            "model: 'typical' holds a number that is not finite");
+  EXPECT_EQ(problem_of("spread", test::float_blob({1, 0})), "model: 'spread' is not above zero");
+  EXPECT_EQ(problem_of("spread", test::float_blob({1, -1})), "model: 'spread' is not above zero");
+  EXPECT_EQ(problem_of("spread", test::float_blob({1, nan})), "model: 'spread' holds a number that is not finite");
 }
 
 // Whoever changes a bit and mends the checksum gets a model that is refused in a line, or one that can be used.

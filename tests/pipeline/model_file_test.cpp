@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -12,6 +11,7 @@
 #include "spincat/pipeline/model.h"
 #include "spincat/pipeline/settings_json.h"
 #include "support/expect_error.h"
+#include "support/float_blob.h"
 #include "support/temp_dir.h"
 
 namespace spincat {
@@ -109,13 +109,6 @@ std::string problem_after(const std::function<void(Json&)>& change) {
   Json content = small_content();
   change(content);
   return problem_with(pack_record("model", kModelVersion, content));
-}
-
-Json floats(const std::vector<float>& values) {
-  Json::binary_t blob;
-  blob.resize(values.size() * sizeof(float));
-  std::memcpy(blob.data(), values.data(), blob.size());
-  return Json::binary(std::move(blob));
 }
 
 TEST(ModelFile, RoundTripsExactly) {
@@ -230,13 +223,13 @@ TEST(ModelFile, HostileJudgesAreRefused) {
   EXPECT_NE(problem_of("features", 6), "no error");
   EXPECT_NE(problem_of("features", std::numeric_limits<std::uint64_t>::max()), "no error");
   EXPECT_NE(problem_of("features", (std::uint64_t{1} << 62) + 5), "no error");  // 4 * 3 * this wraps around
-  EXPECT_EQ(problem_of("weights", floats(std::vector<float>(14))), "model: 'weights' is of the wrong size");
-  EXPECT_NE(problem_of("weights", floats(std::vector<float>(16))), "no error");
-  EXPECT_EQ(problem_of("bias", floats({1, 2})), "model: 'bias' does not hold 3 numbers");
-  EXPECT_EQ(problem_of("bias", floats({1, 2, 3, 4})), "model: 'bias' does not hold 3 numbers");
+  EXPECT_EQ(problem_of("weights", test::float_blob(std::vector<float>(14))), "model: 'weights' is of the wrong size");
+  EXPECT_NE(problem_of("weights", test::float_blob(std::vector<float>(16))), "no error");
+  EXPECT_EQ(problem_of("bias", test::float_blob({1, 2})), "model: 'bias' does not hold 3 numbers");
+  EXPECT_EQ(problem_of("bias", test::float_blob({1, 2, 3, 4})), "model: 'bias' does not hold 3 numbers");
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(problem_of("bias", floats({1, nan, 3})), "model: 'bias' holds a number that is not finite");
-  EXPECT_EQ(problem_of("weights", floats(std::vector<float>(15, std::numeric_limits<float>::infinity()))),
+  EXPECT_EQ(problem_of("bias", test::float_blob({1, nan, 3})), "model: 'bias' holds a number that is not finite");
+  EXPECT_EQ(problem_of("weights", test::float_blob(std::vector<float>(15, std::numeric_limits<float>::infinity()))),
             "model: 'weights' holds a number that is not finite");
   EXPECT_NE(problem_of("support_vectors", Json::array({1, 2})), "no error");
   EXPECT_NE(problem_of("support_vectors", Json::array({1, -2, 3})), "no error");
@@ -273,15 +266,16 @@ TEST(ModelFile, HostileRbfJudgesAreRefused) {
         Json::array({1, 1, 1, 1, 1, 0}), Json::array({std::int64_t{1} << 32, 5})}) {
     EXPECT_NE(problem_of("blocks", wrong), "no error") << wrong;
   }
-  EXPECT_EQ(problem_of("scale", floats({1, -1})), "model: 'scale' holds a number below 0");
-  EXPECT_EQ(problem_of("scale", floats({1})), "model: 'scale' does not hold 2 numbers");
-  EXPECT_NE(problem_of("scale", floats({1, std::numeric_limits<float>::quiet_NaN()})), "no error");
-  EXPECT_EQ(problem_of("supports", floats(std::vector<float>(19))), "model: 'supports' is of the wrong size");
-  EXPECT_EQ(problem_of("supports", floats({})), "model: 'supports' is of the wrong size");
-  EXPECT_NE(problem_of("supports", floats(std::vector<float>(25))), "no error");  // more than the weights know
+  EXPECT_EQ(problem_of("scale", test::float_blob({1, -1})), "model: 'scale' holds a number below 0");
+  EXPECT_EQ(problem_of("scale", test::float_blob({1})), "model: 'scale' does not hold 2 numbers");
+  EXPECT_NE(problem_of("scale", test::float_blob({1, std::numeric_limits<float>::quiet_NaN()})), "no error");
+  EXPECT_EQ(problem_of("supports", test::float_blob(std::vector<float>(19))), "model: 'supports' is of the wrong size");
+  EXPECT_EQ(problem_of("supports", test::float_blob({})), "model: 'supports' is of the wrong size");
+  EXPECT_NE(problem_of("supports", test::float_blob(std::vector<float>(25))),
+            "no error");  // more than the weights know
   EXPECT_NE(problem_of("supports", Json(1)), "no error");
-  EXPECT_EQ(problem_of("weights", floats(std::vector<float>(8))), "model: 'weights' is of the wrong size");
-  EXPECT_NE(problem_of("weights", floats(std::vector<float>(13))), "no error");
+  EXPECT_EQ(problem_of("weights", test::float_blob(std::vector<float>(8))), "model: 'weights' is of the wrong size");
+  EXPECT_NE(problem_of("weights", test::float_blob(std::vector<float>(13))), "no error");
   for (const char* name : {"blocks", "scale", "supports"}) {
     Json content = good;
     content["judges"].erase(name);
@@ -312,11 +306,12 @@ TEST(ModelFile, AHostileCodebookIsRefused) {
     EXPECT_NE(problem_of([&](Json& json) { json["judges"]["local_size"] = wrong; }), "no error") << wrong;
   }
   for (const std::size_t size : {0, 8, 9, 12}) {
-    EXPECT_NE(problem_of([&](Json& json) { json["judges"]["codebook"] = floats(std::vector<float>(size)); }),
+    EXPECT_NE(problem_of([&](Json& json) { json["judges"]["codebook"] = test::float_blob(std::vector<float>(size)); }),
               "no error");
   }
   EXPECT_EQ(problem_of([](Json& json) {
-              json["judges"]["codebook"] = floats(std::vector<float>(10, std::numeric_limits<float>::infinity()));
+              json["judges"]["codebook"] =
+                  test::float_blob(std::vector<float>(10, std::numeric_limits<float>::infinity()));
             }),
             "model: 'codebook' holds a number that is not finite");
   EXPECT_EQ(problem_of([](Json& json) { json["judges"].erase("local_size"); }), "model: 'local_size' is missing");

@@ -4,7 +4,9 @@
 #include <zlib.h>
 
 #include "spincat/error.h"
+#include "spincat/io/file.h"
 #include "support/expect_error.h"
+#include "support/temp_dir.h"
 
 namespace spincat {
 namespace {
@@ -69,6 +71,17 @@ TEST(RecordFile, KeepsLargeBlobs) {
   }
   const json content = {{"blob", json::binary(blob)}};
   EXPECT_EQ(unpack_record(pack_record("model", 1, content), "model", 1), content);
+}
+
+TEST(RecordFile, WritesWhatItPacks) {
+  const test::TempDir dir;
+  const auto file = dir.write("record", "old");
+  json content = small_content();
+  EXPECT_THROW(write_record(file, "a kind", 1, content), InputError);
+  EXPECT_EQ(read_file(file), "old");
+  content["blob"] = json::binary(std::vector<std::uint8_t>(20'000'000, 7));
+  write_record(file, "model", 2, content);
+  EXPECT_TRUE(read_file(file) == pack_record("model", 2, content));
 }
 
 TEST(RecordFile, RefusesEveryDamagedByte) {

@@ -88,11 +88,12 @@ class WriteOrder : public testing::Test {
   ~WriteOrder() override { watch() = {}; }
 
   // Writes the file, and gives the words of the error, if any.
-  static std::string written(const std::filesystem::path& file, int fails_at, int error) {
+  static std::string written(const std::filesystem::path& file, int fails_at, int error,
+                             const std::string& bytes = "new") {
     watch() = {true, fails_at, error, {}};
     std::string problem;
     try {
-      write_file_atomically(file, "new");
+      write_file_atomically(file, bytes);
     } catch (const RunError& failed) {
       problem = failed.what();
     }
@@ -135,6 +136,35 @@ TEST_F(WriteOrder, AFileSystemThatCannotFlushIsNoError) {
     const auto file = dir_.write("result", "old");
     EXPECT_EQ(written(file, step, EINVAL), "") << kOrder[step];
     EXPECT_EQ(read_file(file), "new");
+  }
+}
+
+// Four megabytes at a time past the cache, and what is left over as always; where one of them is refused, all that is
+// left.
+TEST_F(WriteOrder, ALargePieceArrivesWhateverTheDiskRefuses) {
+  std::string bytes(17'000'001, '\0');
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    bytes[i] = static_cast<char>(i * 7 + i / 4096);
+  }
+  const auto file = dir_.write("result", "old");
+  for (int refused = -1; refused < 4; ++refused) {
+    for (const int error : {EINVAL, EINTR}) {
+      EXPECT_EQ(written(file, refused, error, bytes), "");
+      EXPECT_TRUE(read_file(file) == bytes) << refused;
+    }
+  }
+}
+
+TEST_F(WriteOrder, LargePiecesBeginAnywhere) {
+  const std::string large(20'000'000, 'x');
+  for (const std::size_t before : {1, 4095, 4096, 4097}) {
+    OutputFile out(dir_ / "result");
+    out.write(std::string(before, 'a'));
+    out.write(large);
+    out.write("b");
+    out.write(large);
+    out.commit();
+    EXPECT_TRUE(read_file(dir_ / "result") == std::string(before, 'a') + large + "b" + large) << before;
   }
 }
 

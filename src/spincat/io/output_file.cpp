@@ -5,9 +5,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstddef>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -67,6 +71,10 @@ void check_replaceable(const fs::path& file, const fs::path& target) {
     throw RunError(file.string(), "cannot write: " + in_words(errno));
 }
 
+constexpr std::size_t kLarge = std::size_t{16} << 20;  // from so many bytes on, past the cache
+constexpr std::size_t kPiece = std::size_t{4} << 20;
+constexpr std::size_t kSector = 4096;  // a multiple of every disk's
+
 // Some file systems cannot flush and say so; that is no reason to fail.
 bool flush_to_disk(int descriptor) {
   return ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS;
@@ -100,12 +108,44 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::write(std::string_view bytes) {
+  if (bytes.size() >= kLarge && !temporary_.empty()) bytes.remove_prefix(write_past_cache(bytes));
+  write_all(bytes);
+}
+
+void OutputFile::write_all(std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail();
     bytes.remove_prefix(static_cast<std::size_t>(written));
+    written_ += static_cast<std::uint64_t>(written);
   }
+}
+
+// Results are flushed to the disk anyway, and taking memory for the cache may take longer than the disk: 0.11 s
+// instead of 0.73 s for a model of 159 MB (docs/performance.md). Returns how many bytes it has written: what lies before the
+// first place and behind the last that the disk can begin or end at goes the usual way, and so does everything where
+// the file system cannot.
+std::size_t OutputFile::write_past_cache(std::string_view bytes) {
+  const std::size_t before = (kSector - written_ % kSector) % kSector;
+  write_all(bytes.substr(0, before));
+  std::size_t done = before;
+  const int flags = ::fcntl(descriptor_, F_GETFL);
+  const std::unique_ptr<char, decltype(&std::free)> piece(static_cast<char*>(std::aligned_alloc(kSector, kPiece)),
+                                                          &std::free);
+  if (!piece || flags < 0 || ::fcntl(descriptor_, F_SETFL, flags | O_DIRECT) != 0) return done;
+  while (bytes.size() - done >= kPiece) {
+    std::memcpy(piece.get(), bytes.data() + done, kPiece);
+    const ssize_t written = ::write(descriptor_, piece.get(), kPiece);
+    if (written != static_cast<ssize_t>(kPiece)) {  // the usual way goes on, and knows the reason
+      done += static_cast<std::size_t>(std::max<ssize_t>(written, 0));
+      break;
+    }
+    done += kPiece;
+  }
+  written_ += done - before;
+  if (::fcntl(descriptor_, F_SETFL, flags) != 0) fail();
+  return done;
 }
 
 // The order of a power cut: the bytes are on the disk before the name is theirs, and the name before we say so.

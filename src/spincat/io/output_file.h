@@ -1,6 +1,8 @@
 // A file that is written piece by piece and appears whole or not at all.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string_view>
 
@@ -22,17 +24,20 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  // Throw RunError when writing fails (disk full, ...).
+  // Throw RunError when writing fails (disk full, ...). A large piece goes past the system's cache of files.
   void write(std::string_view bytes);
   void commit();
 
  private:
+  void write_all(std::string_view bytes);
+  std::size_t write_past_cache(std::string_view bytes);
   [[noreturn]] void fail() const;
 
   std::filesystem::path file_;       // as the user named it
   std::filesystem::path target_;     // where links lead to
   std::filesystem::path temporary_;  // empty when written straight, or when committed
   int descriptor_ = -1;
+  std::uint64_t written_ = 0;  // bytes
 };
 
 }  // namespace spincat

@@ -6,9 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
+#include <ostream>
+#include <streambuf>
 
 #include "spincat/error.h"
+#include "spincat/io/cbor_limits.h"
 #include "spincat/io/magic.h"
+#include "spincat/io/output_file.h"
 
 namespace spincat {
 namespace {
@@ -16,7 +21,6 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kLongestKind = 32;
-constexpr std::size_t kDeepest = 32;
 constexpr std::size_t kChecksumBytes = 4;
 
 template <class T>
@@ -26,8 +30,8 @@ void append_little_endian(std::string& bytes, T value) {
   }
 }
 
-std::uint32_t checksum_of(std::string_view bytes) {
-  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+std::uint32_t checksum_of(std::string_view bytes, std::uint32_t before = 0) {
+  return static_cast<std::uint32_t>(crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
 bool is_kind(std::string_view text) {
@@ -64,102 +68,6 @@ class RecordReader {
  private:
   std::string_view bytes_;
   std::size_t at_ = 0;
-};
-
-// Looks through CBOR, without recursion, for what to_cbor never writes: containers nested too deep, and strings or
-// containers of no stated length; and for content that would take far more memory than its bytes, as a million empty
-// lists would. nlohmann's parser recurses for each level of both, and in strings it does so without
-// asking its SAX handler, so that a handler alone cannot keep 50,000 levels from overflowing the stack.
-class CborCheck {
- public:
-  explicit CborCheck(std::string_view bytes) : bytes_(bytes) {}
-
-  void run() {
-    constexpr std::uint64_t kFree = 8'000'000;
-    constexpr std::uint64_t kMostGrowth = 12;  // the blobs come on top of it
-    look_through();
-    if (memory_ > kFree + kMostGrowth * bytes_.size()) {
-      throw InputError(fmt::format("is damaged: its content would take {} bytes of memory", memory_));
-    }
-  }
-
- private:
-  void look_through() {
-    std::array<std::uint64_t, kDeepest + 1> items_left = {1};  // by level; level 0 is the content itself
-    std::size_t level = 0;
-    while (true) {
-      while (items_left[level] == 0) {
-        if (level-- == 0) {
-          return check(at_ == bytes_.size());
-        }
-      }
-      --items_left[level];
-      if (const std::uint64_t inside = take_item(); inside > 0) {
-        if (level == kDeepest) {
-          throw InputError(fmt::format("is damaged: its content is nested more than {} deep", kDeepest));
-        }
-        items_left[++level] = inside;
-      }
-    }
-  }
-
-  static void check(bool holds) {
-    if (!holds) {
-      throw InputError("is damaged: its content is not valid CBOR");
-    }
-  }
-
-  // Takes an item's head, and its bytes where it is a string or blob. Returns how many items it is to hold.
-  std::uint64_t take_item() {
-    check(at_ < bytes_.size());
-    const auto head = static_cast<unsigned char>(bytes_[at_++]);
-    const std::uint64_t argument = take_argument(head & 0x1F);
-    constexpr std::uint64_t kInList = 3 * sizeof(json);  // the list holds its old and its new memory while it grows
-    constexpr std::uint64_t kOnHeap = 64;
-    memory_ += kInList + (head >> 5 >= 2 && head >> 5 <= 5 ? kOnHeap : 0);
-    switch (head >> 5) {
-      case 2:  // blob
-      case 3:  // text
-        check(argument <= bytes_.size() - at_);
-        at_ += argument;
-        return 0;
-      case 4:  // array
-        return checked_items(argument, 1);
-      case 5:  // map
-        return checked_items(argument, 2);
-      case 6:  // tag
-        check(false);
-        return 0;
-      default:  // a number, or true, false, null
-        return 0;
-    }
-  }
-
-  // The number in an item's head: itself up to 23, else in the 1, 2, 4 or 8 bytes that follow, big-endian. 28 to 30
-  // mean nothing, 31 is "until further notice".
-  std::uint64_t take_argument(unsigned code) {
-    if (code < 24) {
-      return code;
-    }
-    check(code < 28);
-    const std::size_t count = std::size_t{1} << (code - 24);
-    check(count <= bytes_.size() - at_);
-    std::uint64_t argument = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      argument = argument << 8 | static_cast<unsigned char>(bytes_[at_++]);
-    }
-    return argument;
-  }
-
-  // Each item takes a byte at least, which also keeps the product from overflowing.
-  std::uint64_t checked_items(std::uint64_t count, std::uint64_t items_each) const {
-    check(count <= (bytes_.size() - at_) / items_each);
-    return count * items_each;
-  }
-
-  std::string_view bytes_;
-  std::size_t at_ = 0;
-  std::uint64_t memory_ = 0;  // what nlohmann's parser will take, but for what is in strings and blobs
 };
 
 void check_kind(RecordReader& reader, std::string_view kind) {
@@ -200,41 +108,88 @@ std::size_t check_length(RecordReader& reader) {
   return length;
 }
 
-// Of all binary blobs in it: nearly all of a large record.
-std::size_t blob_bytes(const json& content) {
-  if (content.is_binary()) {
-    return content.get_binary().size();
+using Take = std::function<void(std::string_view piece)>;
+
+// A stream's bytes, small ones gathered, as pieces.
+class PieceBuffer : public std::streambuf {
+ public:
+  explicit PieceBuffer(const Take& take) : take_(take) { empty(); }
+
+ protected:
+  std::streamsize xsputn(const char* bytes, std::streamsize count) override {
+    const auto size = static_cast<std::size_t>(count);
+    if (size < gathered_.size()) {
+      return std::streambuf::xsputn(bytes, count);
+    }
+    sync();
+    take_({bytes, size});
+    return count;
   }
-  std::size_t sum = 0;
-  for (const json& member : content) {
-    sum += member.is_structured() || member.is_binary() ? blob_bytes(member) : 0;
+
+  int_type overflow(int_type c) override {
+    sync();
+    return sputc(traits_type::to_char_type(c));
   }
-  return sum;
+
+  int sync() override {
+    take_({pbase(), static_cast<std::size_t>(pptr() - pbase())});
+    empty();
+    return 0;
+  }
+
+ private:
+  void empty() { setp(gathered_.data(), gathered_.data() + gathered_.size()); }
+
+  const Take& take_;
+  std::array<char, 1 << 16> gathered_;
+};
+
+// The content as CBOR, piece by piece. What `take` throws comes through.
+void to_pieces(const json& content, const Take& take) {
+  PieceBuffer buffer(take);
+  std::ostream stream(&buffer);
+  stream.exceptions(std::ios::badbit | std::ios::failbit);
+  json::to_cbor(content, stream);
+  stream.flush();
+}
+
+void pack_pieces(std::string_view kind, std::uint32_t version, const json& content, const Take& take) {
+  if (!is_kind(kind)) {
+    throw InputError(fmt::format("a kind of record is up to {} letters from a to z", kLongestKind));
+  }
+  std::uint64_t length = 0;
+  to_pieces(content, [&](std::string_view piece) { length += piece.size(); });
+  check_as_cbor(content, length);
+  std::string head(kFileMagic);
+  append_little_endian(head, static_cast<std::uint32_t>(kind.size()));
+  head += kind;
+  append_little_endian(head, version);
+  append_little_endian(head, length);
+  std::uint32_t checksum = 0;
+  const auto take_checked = [&](std::string_view piece) {
+    checksum = checksum_of(piece, checksum);
+    take(piece);
+  };
+  take_checked(head);
+  to_pieces(content, take_checked);
+  std::string tail;
+  append_little_endian(tail, checksum);
+  take(tail);
 }
 
 }  // namespace
 
 std::string pack_record(std::string_view kind, std::uint32_t version, const json& content) {
-  if (!is_kind(kind)) {
-    throw InputError(fmt::format("a kind of record is up to {} letters from a to z", kLongestKind));
-  }
-  constexpr std::size_t kRest = std::size_t{1} << 20;
   std::string bytes;
-  bytes.reserve(blob_bytes(content) + kRest);  // growing would copy the blobs once more
-  bytes += kFileMagic;
-  append_little_endian(bytes, static_cast<std::uint32_t>(kind.size()));
-  bytes += kind;
-  append_little_endian(bytes, version);
-  const std::size_t length_at = bytes.size();
-  append_little_endian(bytes, std::uint64_t{0});
-  const std::size_t content_at = bytes.size();
-  json::to_cbor(content, bytes);  // behind the head: the content may be large
-  CborCheck(std::string_view(bytes).substr(content_at)).run();
-  std::string length;
-  append_little_endian(length, static_cast<std::uint64_t>(bytes.size() - content_at));
-  bytes.replace(length_at, length.size(), length);
-  append_little_endian(bytes, checksum_of(bytes));
+  pack_pieces(kind, version, content, [&](std::string_view piece) { bytes += piece; });
   return bytes;
+}
+
+void write_record(const std::filesystem::path& file, std::string_view kind, std::uint32_t version,
+                  const json& content) {
+  OutputFile out(file);
+  pack_pieces(kind, version, content, [&](std::string_view piece) { out.write(piece); });
+  out.commit();
 }
 
 json unpack_record(std::string_view bytes, std::string_view kind, std::uint32_t newest_version,
@@ -251,7 +206,7 @@ json unpack_record(std::string_view bytes, std::string_view kind, std::uint32_t 
   if (reader.take_little_endian<std::uint32_t>() != checksum) {
     throw InputError("is damaged: its checksum does not match");
   }
-  CborCheck(payload).run();
+  check_cbor(payload);
   try {
     return json::from_cbor(payload);
   } catch (const json::exception& problem) {

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -20,8 +21,13 @@
 namespace spincat {
 
 // The bytes of a record. `kind` is up to 32 lower-case letters; `content` may be nested 32 deep, and its binary blobs
-// have no subtypes.
+// have no subtypes. Throws InputError where unpack_record would refuse it.
 std::string pack_record(std::string_view kind, std::uint32_t version, const nlohmann::json& content);
+
+// Writes these bytes to a file, which holds either what it held before or all of them (OutputFile). Blobs are not
+// copied on their way. Throws InputError and RunError as OutputFile does, too.
+void write_record(const std::filesystem::path& file, std::string_view kind, std::uint32_t version,
+                  const nlohmann::json& content);
 
 // The content of a record of this kind and of a version from `oldest_version` to `newest_version`. The magic, kind,
 // version, length and checksum are checked in this order, so that the message names what is really the matter. Throws

@@ -33,12 +33,8 @@ constexpr std::size_t kMostCategories = 10'000;
 constexpr std::size_t kMostFeatures = 100'000'000;
 
 Json pack_floats(std::span<const float> values) {
-  Json::binary_t blob;
-  blob.resize(values.size_bytes());
-  if (!values.empty()) {
-    std::memcpy(blob.data(), values.data(), values.size_bytes());
-  }
-  return Json::binary(std::move(blob));
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(values.data());
+  return Json::binary({bytes, bytes + values.size_bytes()});  // written once: a model may be large
 }
 
 const Json& member(const Json& json, const char* name) {
@@ -281,7 +277,7 @@ void write_model(const std::filesystem::path& file, const Model& model) {
                      {"object_counts", model.object_counts},
                      {"kinds", {model.kinds.meshes, model.kinds.clouds}},
                      {"made_by", model.made_by}};
-  write_file_atomically(file, pack_record("model", kModelVersion, json));
+  write_record(file, "model", kModelVersion, json);
 }
 
 Model read_model(const std::filesystem::path& file) {

@@ -23,6 +23,10 @@ struct GridPoint {
   auto operator<=>(const GridPoint&) const = default;
 };
 
+std::size_t index_of(int x, int y, int columns) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x);
+}
+
 long long cross(const GridPoint& o, const GridPoint& a, const GridPoint& b) {
   return static_cast<long long>(a.x - o.x) * (b.y - o.y) - static_cast<long long>(a.y - o.y) * (b.x - o.x);
 }
@@ -64,9 +68,9 @@ struct Grid {
   int rows;
   std::vector<std::uint8_t>& cells;
 
-  std::uint8_t at(int x, int y) const {
-    return x < 0 || y < 0 || x >= columns || y >= rows ? 0 : cells[static_cast<std::size_t>(y * columns + x)];
-  }
+  std::size_t index(int x, int y) const { return index_of(x, y, columns); }
+
+  std::uint8_t at(int x, int y) const { return x < 0 || y < 0 || x >= columns || y >= rows ? 0 : cells[index(x, y)]; }
 };
 
 // The cells with enough neighbours.
@@ -110,7 +114,7 @@ bool is_fat(const std::vector<GridPoint>& component, const Grid& grid) {
 std::vector<GridPoint> large_components(const std::vector<GridPoint>& cells, Grid grid) {
   std::ranges::fill(grid.cells, 0);
   for (const GridPoint& c : cells) {
-    grid.cells[static_cast<std::size_t>(c.y * grid.columns + c.x)] = 1;
+    grid.cells[grid.index(c.x, c.y)] = 1;
   }
   std::vector<std::vector<GridPoint>> components;
   for (const GridPoint& c : cells) {
@@ -120,7 +124,7 @@ std::vector<GridPoint> large_components(const std::vector<GridPoint>& cells, Gri
     std::vector<GridPoint> component;
     const auto take = [&](GridPoint p) {
       if (grid.at(p.x, p.y) == 1) {
-        grid.cells[static_cast<std::size_t>(p.y * grid.columns + p.x)] = 2;
+        grid.cells[grid.index(p.x, p.y)] = 2;
         component.push_back(p);
       }
     };
@@ -168,7 +172,7 @@ TableArea::TableArea(const DepthImage& image, const Intrinsics& intrinsics, cons
   cells_.assign(filled.size(), 0);
   for (int y = 0; y < rows_; ++y) {
     for (int x = 0; x < columns_; ++x) {
-      cells_[static_cast<std::size_t>(y * columns_ + x)] = inside(hull, {x, y}) ? 1 : 0;
+      cells_[index_of(x, y, columns_)] = inside(hull, {x, y}) ? 1 : 0;
     }
   }
 }
@@ -204,7 +208,7 @@ std::vector<std::uint8_t> TableArea::filled_cells(const DepthImage& image, const
     const int x = static_cast<int>((p.x() - low_.x()) / kCell);
     const int y = static_cast<int>((p.y() - low_.y()) / kCell);
     if (x < columns_ && y < rows_) {
-      filled[static_cast<std::size_t>(y * columns_ + x)] = 1;
+      filled[index_of(x, y, columns_)] = 1;
     }
   }
   return filled;
@@ -218,7 +222,7 @@ TableArea::Cell TableArea::cell_of(const Eigen::Vector3f& point) const {
 bool TableArea::contains(const Eigen::Vector3f& point) const {
   const Cell cell = cell_of(point);
   return !cells_.empty() && cell.x >= 0 && cell.y >= 0 && cell.x < columns_ && cell.y < rows_ &&
-         cells_[static_cast<std::size_t>(cell.y * columns_ + cell.x)] != 0;
+         cells_[index_of(cell.x, cell.y, columns_)] != 0;
 }
 
 }  // namespace spincat

@@ -61,7 +61,7 @@ Eigen::Vector2d free_place(double radius, const std::vector<Circle>& taken, Rand
     for (int k = 0; k < kTriesARing; ++k) {
       const double distance = furthest * std::sqrt(random.uniform());
       const double angle = 2.0 * std::numbers::pi * random.uniform();
-      const Eigen::Vector2d place = distance * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      Eigen::Vector2d place = distance * Eigen::Vector2d(std::cos(angle), std::sin(angle));
       if (std::ranges::all_of(taken,
                               [&](const Circle& c) { return (c.centre - place).norm() > c.radius + radius + kGap; })) {
         return place;

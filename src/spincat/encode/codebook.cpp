@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "spincat/geometry/random.h"
+#include "spincat/geometry/share_out.h"
 
 namespace spincat {
 namespace {
@@ -49,10 +50,8 @@ std::vector<std::uint32_t> nearest_words(const Eigen::Ref<const Rows>& rows, con
     }
     return nearest;
   }
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-  for (Eigen::Index chunk = 0; chunk < chunks; ++chunk) {
-    find(chunk);
-  }
+  share_out(static_cast<std::size_t>(chunks), threads,
+            [&](std::size_t chunk) { find(static_cast<Eigen::Index>(chunk)); });
   return nearest;
 }
 

@@ -116,9 +116,10 @@ void draw_triangle(int columns, int rows, const Vec3& a, const Vec3& b, const Ve
     const RowWeights weights((x * ac.y() - y * ac.x()) * scale, (ab.x() * y - ab.y() * x) * scale, step_b, step_c);
     const Columns inside = weights.inside(last_column - first_column + 1);
     const double nearest = a.z() + weights.b(inside.first) * ab.z() + weights.c(inside.first) * ac.z();
-    const int first = row * columns + first_column;
+    const std::size_t first =
+        static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(first_column);
     for (int column = inside.first; column <= inside.last; ++column) {
-      keep(static_cast<std::size_t>(first + column), nearest + (column - inside.first) * depth_step);
+      keep(first + static_cast<std::size_t>(column), nearest + (column - inside.first) * depth_step);
     }
   }
 }

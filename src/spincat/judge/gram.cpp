@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "spincat/geometry/share_out.h"
+
 namespace spincat {
 namespace {
 
@@ -29,11 +31,10 @@ Eigen::MatrixXf tile_of(const Eigen::Ref<const FeatureMatrix>& features, Eigen::
 Eigen::MatrixXf gram_matrix(const Eigen::Ref<const FeatureMatrix>& features, int threads) {
   Eigen::MatrixXf gram(features.rows(), features.rows());
   const std::size_t strips = gram_strips(features.rows());
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-  for (std::size_t s = 0; s < strips; ++s) {
+  share_out(strips, threads, [&](std::size_t s) {
     const std::size_t strip = strips - 1 - s;  // the longest first
     put_gram_strip(gram_strip(features, strip), strip, gram);
-  }
+  });
   return gram;
 }
 

@@ -9,6 +9,8 @@
 #include <exception>
 #include <mutex>
 
+#include "spincat/geometry/share_out.h"
+
 namespace spincat {
 
 int allowed_processors() {
@@ -39,10 +41,9 @@ void for_each_index(std::size_t count, int threads, const std::function<void(std
   std::mutex mutex;
   std::exception_ptr error;
   std::atomic<std::size_t> failed_index = count;  // the smallest so far
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-  for (std::size_t i = 0; i < count; ++i) {
+  share_out(count, threads, [&](std::size_t i) {
     if (i > failed_index) {  // those below still run: one of them may fail, too
-      continue;
+      return;
     }
     try {
       body(i);
@@ -53,7 +54,7 @@ void for_each_index(std::size_t count, int threads, const std::function<void(std
         error = std::current_exception();
       }
     }
-  }
+  });
   if (error) {
     std::rethrow_exception(error);
   }

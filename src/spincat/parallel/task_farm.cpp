@@ -62,7 +62,10 @@ class TaskFarm::Run {
     begin();
     Pause pause;
     while (!board_.all_delivered()) {
-      const bool happened = take_here() | hear() | deliver() | hand_out();
+      bool happened = take_here();  // all four, whatever the others say
+      happened = hear() || happened;
+      happened = deliver() || happened;
+      happened = hand_out() || happened;
       mind_silence();
       if (happened || Clock::now() - last_tick_ > kBetweenTicks) {
         last_tick_ = Clock::now();
@@ -343,7 +346,7 @@ class TaskFarm::Run {
   const std::uint32_t number_;
   Journal* journal_ = nullptr;  // null where this job is not in one
   std::uint64_t journal_job_ = 0;
-  bool started_ = false;  // the others were told
+  bool started_ = false;       // the others were told
   std::optional<bool> tells_;  // whether they are told all results
   TaskBoard board_;
   std::map<std::size_t, TaskResult> waiting_;  // for their turn

@@ -45,7 +45,8 @@ class Server {
     Pause pause;
     while (!quit_ && !is_orphan()) {
       keep_going();
-      const bool happened = hear() | answer();
+      bool happened = hear();
+      happened = answer() || happened;  // both
       beat();
       rest(pause.next(happened, ranks_.under_way() > 0));
     }

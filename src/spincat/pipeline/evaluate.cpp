@@ -221,7 +221,7 @@ std::string misfit_of(const EvaluationData& data, const Settings& settings) {
   }
   for (const auto& [kind, count] : {std::pair(ObjectKind::mesh, data.tested->kinds.meshes),
                                     std::pair(ObjectKind::cloud, data.tested->kinds.clouds)}) {
-    const std::string reason = misfit(kind, data.table.kinds, settings.taught_for);
+    std::string reason = misfit(kind, data.table.kinds, settings.taught_for);
     if (count > 0 && !reason.empty()) {
       return reason;
     }

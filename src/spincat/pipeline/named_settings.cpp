@@ -21,7 +21,7 @@ Json typed_value(const std::string& name, std::string_view text, const Json& lik
   if (like.is_string()) {
     return text;
   }
-  const Json value = Json::parse(text, nullptr, false);
+  Json value = Json::parse(text, nullptr, false);
   const bool fits = like.is_boolean()        ? value.is_boolean()
                     : like.is_number_float() ? value.is_number()
                                              : value.is_number_integer();

@@ -59,8 +59,7 @@ std::vector<Vec3> distinct(std::span<const Vec3> points, std::span<const std::ui
 ObjectFacts facts_of(const Object& object) {
   ObjectFacts facts;
   const auto* mesh = std::get_if<Mesh>(&object);
-  const auto* cloud = std::get_if<PointCloud>(&object);
-  const std::vector<Vec3>& points = mesh != nullptr ? mesh->vertices : cloud->points;
+  const std::vector<Vec3>& points = mesh != nullptr ? mesh->vertices : std::get<PointCloud>(object).points;
   facts.is_mesh = mesh != nullptr;
   facts.points = points.size();
   facts.low = facts.high = points.front();
@@ -73,7 +72,7 @@ ObjectFacts facts_of(const Object& object) {
   if (mesh != nullptr) {
     add_mesh_facts(*mesh, facts);
   } else {
-    facts.has_normals = !cloud->normals.empty();
+    facts.has_normals = !std::get<PointCloud>(object).normals.empty();
     facts.resolution = cloud_resolution(distinct(points, first));
   }
   return facts;

@@ -27,9 +27,8 @@ using I = hn::RebindToSigned<F>;
 using VF = hn::Vec<F>;
 using VI = hn::Vec<I>;
 
-constexpr double kUnit = 0x1.0p-23;         // of the sums
-constexpr std::int32_t kOne = 1 << 23;      // one, in that unit
-constexpr std::int32_t kBias = 127 * kOne;  // what in_units adds: the bits of 1.0F
+constexpr double kUnit = 0x1.0p-23;     // of the sums
+constexpr std::int32_t kOne = 1 << 23;  // one, in that unit
 
 // ---- Which groups of points can lie in the support
 // -------------------------------------------------------------------
@@ -217,8 +216,8 @@ HWY_INLINE Place place_of(VF beta, VF alpha2, const Support& support) {
   }
 }
 
-// `share`, in [0, 1], in the unit of the sums, plus kBias: between 1 and 2 that is what the bits of a float count. Much
-// cheaper than a conversion; the biases are taken off the sums.
+// `share`, in [0, 1], in the unit of the sums, plus 127 times one (the bits of 1.0F): between 1 and 2 that is what the
+// bits of a float count. Much cheaper than a conversion; the biases are taken off the sums.
 HWY_INLINE VI in_units(VF share) {
   return hn::BitCast(I(), hn::Add(share, hn::Set(F(), 1.0F)));
 }
@@ -227,7 +226,8 @@ HWY_INLINE VI in_units(VF share) {
 // factor and twice that count.
 template <std::int32_t kFactor>
 HWY_INLINE VI scaled_index(VF index) {
-  const VF low = hn::Set(F(), static_cast<float>(kOne / kFactor));
+  static_assert(kOne % kFactor == 0);
+  const VF low = hn::Set(F(), static_cast<float>(kOne) / kFactor);
   return hn::And(hn::BitCast(I(), hn::Add(index, low)), hn::Set(I(), kOne - 1));
 }
 
@@ -305,11 +305,10 @@ HWY_INLINE void place_pending(const Support& support, const CellLayout& layout, 
     }
     if constexpr (kBinning == Binning::bilinear) {
       const VF uv = hn::Mul(at.u, at.v);
-      SlotOrder::store(one, in_units(at.u), in_units(at.v), in_units(uv), complete,
-                       pending.shares + 4 * k);
+      SlotOrder::store(one, in_units(at.u), in_units(at.v), in_units(uv), complete, pending.shares + 4 * k);
       if constexpr (kSoft) {
         SlotOrder::store(in_units(weight), in_units(hn::Mul(weight, at.u)), in_units(hn::Mul(weight, at.v)),
-                     in_units(hn::Mul(weight, uv)), complete, pending.weighted + 4 * k);
+                         in_units(hn::Mul(weight, uv)), complete, pending.weighted + 4 * k);
       }
     } else if constexpr (kSoft) {
       hn::StoreInterleaved2(one, in_units(weight), i, pending.shares + 2 * k);
@@ -460,7 +459,7 @@ struct Moments {
   VL one, u, v, uv;
 };
 
-// Those of plain sums. kBias times the number of points is 127 times `one`.
+// Those of plain sums. What in_units adds, times the number of points, is 127 times `one`.
 HWY_INLINE Moments plain_moments(const std::int64_t* sums) {
   VL one, u, v, uv;
   hn::LoadInterleaved4(L(), sums, one, u, v, uv);

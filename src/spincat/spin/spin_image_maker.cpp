@@ -114,7 +114,7 @@ class SpinImageMaker::Engine {
       const auto add = [&](std::size_t, Sums& part) {
         std::transform(part.begin(), part.end(), sums.begin(), sums.begin(), std::plus<>());
       };
-      InOrder<Sums>(threads, threads, make_slice, add);
+      InOrder<Sums>(threads, threads, make_slice, add);  // NOLINT(bugprone-unused-raii): making it does the work
       finish(group, sums);
       wanted = wanted.subspan(group.size());
     }

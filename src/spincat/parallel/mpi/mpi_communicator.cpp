@@ -25,7 +25,7 @@ namespace {
 constexpr std::size_t kPiece = std::size_t{1} << 20;
 constexpr std::size_t kHead = sizeof(std::uint64_t);  // of a message's first piece: the length of the whole
 constexpr std::chrono::milliseconds kLastAnswers(50);
-constexpr int kPiecesAtOnce = 4;                      // to one rank
+constexpr int kPiecesAtOnce = 4;  // to one rank
 
 // A message to one rank, piece by piece.
 struct Outgoing {
@@ -53,15 +53,20 @@ struct IncomingPiece {
 
 struct InBox {
   std::deque<IncomingPiece> under_way;
+  bool is_broken = false;  // a piece was lost: what comes after it cannot be put together
   bool in_message = false;
   std::uint64_t length = 0;  // of the message that is being put together
   Message message;
 };
 
-bool is_done(MPI_Request& request) {
+enum class Transfer { under_way, done, failed };
+
+Transfer state_of(MPI_Request& request) {
   int done = 0;
-  MPI_Test(&request, &done, MPI_STATUS_IGNORE);
-  return done != 0;
+  if (MPI_Test(&request, &done, MPI_STATUS_IGNORE) != MPI_SUCCESS) {
+    return Transfer::failed;
+  }
+  return done != 0 ? Transfer::done : Transfer::under_way;
 }
 
 class MpiCommunicator final : public Communicator {
@@ -154,7 +159,8 @@ class MpiCommunicator final : public Communicator {
 
   void move_on_sending(int to) {
     OutBox& box = out_[static_cast<std::size_t>(to)];
-    while (!box.under_way.empty() && is_done(box.under_way.front().request)) {
+    // What could not be sent is dropped: its rank falls silent and is taken to be lost.
+    while (!box.under_way.empty() && state_of(box.under_way.front().request) != Transfer::under_way) {
       box.under_way.pop_front();
     }
     while (!box.waiting.empty() && box.under_way.size() < kPiecesAtOnce) {
@@ -177,11 +183,13 @@ class MpiCommunicator final : public Communicator {
     if (is_first) {
       pack_first(*message);
     }
-    const std::size_t size = is_first ? message->first.size() : std::min(kPiece, message->bytes->size() - message->begun);
+    const std::size_t size =
+        is_first ? message->first.size() : std::min(kPiece, message->bytes->size() - message->begun);
     const char* const from = is_first ? message->first.data() : message->bytes->data() + message->begun;
     message->begun += is_first ? size - kHead : size;
     Piece& piece = box.under_way.emplace_back();
     piece.message = message;
+    // NOLINTNEXTLINE(clang-analyzer-optin.mpi.MPI-Checker): MPI_Test ends it
     MPI_Isend(from, static_cast<int>(size), MPI_BYTE, to, message->tag, MPI_COMM_WORLD, &piece.request);
     if (message->begun == message->bytes->size()) {
       box.waiting.pop_front();
@@ -203,16 +211,26 @@ class MpiCommunicator final : public Communicator {
       IncomingPiece& piece = in_[static_cast<std::size_t>(status.MPI_SOURCE)].under_way.emplace_back();
       piece.tag = status.MPI_TAG;
       piece.bytes.resize(static_cast<std::size_t>(size));
-      MPI_Imrecv(piece.bytes.data(), size, MPI_BYTE, &message, &piece.request);
+      if (MPI_Imrecv(piece.bytes.data(), size, MPI_BYTE, &message, &piece.request) != MPI_SUCCESS) {
+        in_[static_cast<std::size_t>(status.MPI_SOURCE)].is_broken = true;
+      }
     }
   }
 
   // Puts together what has come from a rank, until a message is whole.
   std::optional<Message> assemble(int from) {
     InBox& box = in_[static_cast<std::size_t>(from)];
-    while (!box.under_way.empty() && is_done(box.under_way.front().request)) {
+    while (!box.under_way.empty()) {
+      const Transfer state = state_of(box.under_way.front().request);
+      if (state == Transfer::under_way) {
+        break;
+      }
       const IncomingPiece piece = std::move(box.under_way.front());
       box.under_way.pop_front();
+      box.is_broken = box.is_broken || state == Transfer::failed;
+      if (box.is_broken) {  // its rank is silent from now on, and taken to be lost
+        continue;
+      }
       if (!box.in_message) {
         std::memcpy(&box.length, piece.bytes.data(), kHead);
         box.message = {from, piece.tag, {}};

@@ -25,6 +25,7 @@ cleanup() {
 }
 trap cleanup EXIT
 ip netns add "$space" 2>"$work/netns.err" || skip "no network namespaces here: $(cat "$work/netns.err")"
+ip netns exec "$space" true 2>"$work/netns.err" || skip "no way into a network namespace here: $(cat "$work/netns.err")"
 ip -n "$space" link set lo up
 ip -n "$space" link add one type veth peer name two || skip "no virtual network cards here"
 ip -n "$space" address add 10.78.0.1/24 dev one

@@ -20,7 +20,7 @@ constexpr int kStride = 2;  // every second pixel both ways is looked at
 struct GridPoint {
   int x;
   int y;
-  auto operator<=>(const GridPoint&) const = default;
+  auto operator<=>(const GridPoint&) const = default;  // NOLINT(modernize-use-nullptr): there is no pointer
 };
 
 std::size_t index_of(int x, int y, int columns) {

@@ -174,7 +174,7 @@ std::vector<std::uint32_t> count_equal(const std::vector<std::uint64_t>& keys) {
 struct Waiting {
   double time;
   std::uint32_t point;
-  auto operator<=>(const Waiting&) const = default;
+  auto operator<=>(const Waiting&) const = default;  // NOLINT(modernize-use-nullptr): there is no pointer
 };
 
 // The `count` points that come first, in order, when point i waits for -log(1 - u_i) crowd_i with u_i uniform. Only

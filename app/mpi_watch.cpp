@@ -24,8 +24,9 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kBetweenLooks(100);
+constexpr std::chrono::milliseconds kBetweenLooks(20);  // a rank that goes before it was seen is missed only much later
 constexpr std::chrono::milliseconds kBetweenLastLooks(2);
+constexpr std::chrono::milliseconds kStall(500);  // when we did not look for so long, what we saw before means nothing
 
 fs::path program_of(std::int64_t process) {
   std::error_code error;
@@ -47,14 +48,6 @@ std::vector<std::int64_t> ranks_beside_us() {
   return ranks;
 }
 
-// Not exit(): what it would call belongs to a thread that hangs in MPI.
-[[noreturn]] void give_up_start(const Launch& launch, const char* reason) {
-  if (launch.number == 0) {
-    message(fmt::format("{} while MPI started; the same command may be given again", reason));
-  }
-  std::_Exit(1);
-}
-
 }  // namespace
 
 // What becomes of the ranks of this host. Times are in deadlines for silence: others get as long to tell more of the
@@ -63,6 +56,10 @@ class HostRanks {
  public:
   void look() {
     const auto now = Clock::now();
+    if (now - last_look_ > kStall) {
+      begin_again();
+    }
+    last_look_ = now;
     for (const std::int64_t rank : ranks_beside_us()) {
       seen_.try_emplace(rank, Seen{now, now});
     }
@@ -83,6 +80,14 @@ class HostRanks {
   void kill_stopped() const {
     for (const auto& [rank, seen] : seen_) {
       if (since(seen.last_running) > 0.25) {
+        ::kill(static_cast<pid_t>(rank), SIGKILL);
+      }
+    }
+  }
+
+  void kill_others() const {
+    for (const auto& [rank, seen] : seen_) {
+      if (rank != getpid() && is_there(rank)) {
         ::kill(static_cast<pid_t>(rank), SIGKILL);
       }
     }
@@ -113,8 +118,22 @@ class HostRanks {
   }
 
   Clock::time_point start_ = Clock::now();
+  Clock::time_point last_look_ = start_;
   std::map<std::int64_t, Seen> seen_;
 };
+
+namespace {
+
+// Not exit(): what it would call belongs to a thread that hangs in MPI.
+[[noreturn]] void give_up_start(const Launch& launch, const HostRanks& host, const char* reason) {
+  if (launch.number == 0) {
+    message(fmt::format("{} while MPI started; the same command may be given again", reason));
+  }
+  host.kill_stopped();  // the launcher would wait for them for ever
+  std::_Exit(1);
+}
+
+}  // namespace
 
 std::shared_ptr<HostRanks> ranks_of_host() {
   return std::make_shared<HostRanks>();
@@ -130,9 +149,9 @@ MpiWatch::~MpiWatch() {
 
 void MpiWatch::look_on() {
   std::unique_lock lock(mutex_);
-  while (!over_changed_.wait_for(lock, kBetweenLooks, [&] { return over_; })) {
+  do {
     look_();
-  }
+  } while (!over_changed_.wait_for(lock, kBetweenLooks, [&] { return over_; }));
 }
 
 std::unique_ptr<MpiWatch> watch_start(const Launch& launch, std::shared_ptr<HostRanks> host) {
@@ -141,12 +160,13 @@ std::unique_ptr<MpiWatch> watch_start(const Launch& launch, std::shared_ptr<Host
   }
   return std::make_unique<MpiWatch>([launch, host = std::move(host)] {
     host->look();
-    if (host->gone_for() > 1.0) {
-      give_up_start(launch, "a rank was lost");
+    // Rank 0 first: a launcher may end all others with the first that ends, and it has something to say.
+    const double later = launch.number == 0 ? 0.0 : 0.5;
+    if (host->gone_for() > 1.0 + later) {
+      give_up_start(launch, *host, "a rank was lost");
     }
-    if (host->stopped_for() > 5.0 || host->watched_for() > 30.0) {
-      host->kill_stopped();  // the launcher would wait for them for ever
-      give_up_start(launch, "a rank did not answer");
+    if (host->stopped_for() > 5.0 + later || host->watched_for() > 30.0 + later) {
+      give_up_start(launch, *host, "a rank did not answer");
     }
   });
 }
@@ -156,10 +176,14 @@ std::unique_ptr<MpiWatch> watch_end(const Launch& launch, std::shared_ptr<HostRa
     return nullptr;
   }
   host->begin_again();
-  return std::make_unique<MpiWatch>([host = std::move(host), exit_code] {
+  return std::make_unique<MpiWatch>([host = std::move(host), exit_code, is_first = launch.number == 0] {
     host->look();
     host->kill_stopped();
-    if (host->gone_for() > 2.0 || host->watched_for() > 15.0) {
+    const bool in_vain = host->watched_for() > 15.0;
+    if (in_vain && is_first) {
+      host->kill_others();  // they no longer hear us
+    }
+    if (in_vain || host->gone_for() > 2.0) {
       std::_Exit(exit_code);
     }
   });

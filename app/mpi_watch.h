@@ -11,7 +11,7 @@
 
 namespace spincat::app {
 
-// Has a thread look every tenth of a second, until this object goes.
+// Has a thread look some fifty times a second, until this object goes.
 class MpiWatch {
  public:
   explicit MpiWatch(std::function<void()> look);
@@ -33,12 +33,14 @@ class MpiWatch {
 class HostRanks;
 std::shared_ptr<HostRanks> ranks_of_host();
 
-// While MPI starts: ends this process with a line that says so when a rank beside it has gone or stays stopped (which
-// is then killed), or after thirty deadlines for silence. Nothing is lost by then: the journal has what an earlier run finished.
+// While MPI starts: ends this process with a line that says so when a rank beside it has gone or stays stopped, or after
+// thirty deadlines for silence; kills the ranks that are stopped. Nothing is lost by then: the journal has what an
+// earlier run finished.
 std::unique_ptr<MpiWatch> watch_start(const Launch& launch, std::shared_ptr<HostRanks> host);
 
 // While MPI ends: kills ranks of this host that stay stopped, and ends this process with its exit code when a rank
-// beside it has long gone, or after fifteen deadlines. Whatever the command had to write is complete by then.
+// beside it has long gone, or after fifteen deadlines; rank 0 then kills those that are left. Whatever the command had
+// to write is complete by then.
 std::unique_ptr<MpiWatch> watch_end(const Launch& launch, std::shared_ptr<HostRanks> host, int exit_code);
 
 // For rank 0, when MPI has ended: waits for the other ranks of this host to go, at most two deadlines, and kills those

@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <ostream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -33,6 +34,10 @@ struct Mpi {
   std::string launcher;  // with what every test needs: more ranks than processors, ranks not bound to one of them
   std::string recovery;  // option with which a run outlives a lost rank; empty where there is none
 };
+
+inline std::ostream& operator<<(std::ostream& stream, const Mpi& mpi) {
+  return stream << mpi.name;
+}
 
 inline const Mpi kOpenMpi{
     "openmpi",

@@ -2,6 +2,7 @@
 // often each is tried.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <ostream>
 #include <random>
@@ -31,7 +32,7 @@ class Losses : public Launching, public testing::WithParamInterface<Task> {
 
   static int rounds() {
     const char* wanted = std::getenv("SPINCAT_LOSSES");
-    return wanted != nullptr ? std::atoi(wanted) : 1;
+    return wanted != nullptr ? std::max(1, std::atoi(wanted)) : 1;
   }
 
   // Starts the command in the background; its exit code appears in a file.
@@ -66,23 +67,27 @@ class Losses : public Launching, public testing::WithParamInterface<Task> {
     return found;
   }
 
-  // Sends a signal to a worker at a random moment after two were seen, `latest` at the latest; false when it was no
-  // more.
+  // Sends a signal to a worker at a random moment after two were seen, `latest` at the latest; false when it had ended.
+  // Not at once: where a process goes before it has found its launcher, Open MPI's may hang.
   bool hit(int signal, std::chrono::milliseconds latest) {
     std::vector<pid_t> found;
     for (int i = 0; i < 2'000 && found.size() < 2 && !fs::exists(dir_.path() / "code"); ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
       found = workers();
     }
-    std::uniform_int_distribution<std::int64_t> moment(0, latest.count());
+    std::uniform_int_distribution<std::int64_t> moment(kEarliest.count(), latest.count());
     std::this_thread::sleep_for(std::chrono::milliseconds(moment(random_)));
-    return !found.empty() && kill(found[random_() % found.size()], signal) == 0;
+    if (found.empty()) {
+      return false;
+    }
+    const pid_t worker = found[random_() % found.size()];
+    return is_running(worker) && kill(worker, signal) == 0;
   }
 
   // Starts the command until the signal found a worker: a run may end before it is sent.
   void start_and_hit(const Mpi& mpi, int ranks, int signal) {
     using namespace std::chrono_literals;
-    for (std::chrono::milliseconds latest = 1'500ms; latest > 1ms; latest /= 2) {
+    for (std::chrono::milliseconds latest = 1'500ms; latest > kEarliest; latest /= 2) {
       start(mpi, ranks);
       if (hit(signal, latest)) {
         return;
@@ -90,6 +95,13 @@ class Losses : public Launching, public testing::WithParamInterface<Task> {
       EXPECT_EQ(wait_for_code(), 0) << bytes(".err");
     }
     FAIL() << "no signal came in time";
+  }
+
+  // Neither gone nor a zombie.
+  static bool is_running(pid_t process) {
+    const std::string stat = contents(fmt::format("/proc/{}/stat", process));
+    const std::size_t name_end = stat.rfind(") ");
+    return name_end != std::string::npos && stat[name_end + 2] != 'Z';
   }
 
   int wait_for_code() const {
@@ -108,21 +120,26 @@ class Losses : public Launching, public testing::WithParamInterface<Task> {
 
   void expect_right() { EXPECT_TRUE(bytes(ranks_) == bytes(alone_)) << bytes(".err"); }
 
+  static constexpr std::chrono::milliseconds kEarliest{50};
   const std::string alone_ = "alone" + GetParam().extension;
   const std::string ranks_ = "ranks" + GetParam().extension;
   std::mt19937 random_{std::random_device{}()};
 };
 
-// But for a rank that is lost while MPI itself starts: nothing is done yet, and the command says so.
+// But for a rank that is lost while MPI itself starts: nothing is done yet, and the command says so. The exit code tells
+// little, as Open MPI's recovery makes it 0 in any case: what counts are the bytes, and that the run ends.
 TEST_P(Losses, UnderOpenMpiCostNothingButTime) {
   if (const std::string reason = reason_to_skip(kOpenMpi); !reason.empty()) {
     GTEST_SKIP() << reason;
   }
+  int failed = 0;
   for (const int signal : {SIGKILL, SIGSTOP}) {
     for (int round = 0; round < rounds(); ++round) {
       start_and_hit(kOpenMpi, 3, signal);
       int code = wait_for_code();
       if (failed_to_start()) {
+        ++failed;
+        EXPECT_FALSE(fs::exists(dir_.path() / ranks_)) << bytes(".err");
         start(kOpenMpi, 3);
         code = wait_for_code();
       }
@@ -130,6 +147,7 @@ TEST_P(Losses, UnderOpenMpiCostNothingButTime) {
       expect_right();
     }
   }
+  EXPECT_LE(failed, 1 + rounds()) << "most runs did not start";
 }
 
 // MPICH's launcher ends the whole run; the same command goes on from the journal.

@@ -239,6 +239,25 @@ TEST(TaskFarm, ALostRankCostsNothingButTime) {
   }
 }
 
+TEST(TaskFarm, ARankThatIsCutOffIsDoneWithoutAndLeaves) {
+  Ranks others(3, 1, [] { std::this_thread::sleep_for(std::chrono::milliseconds(2)); });
+  Outcome outcome;
+  TaskFarm farm(others.communicator());
+  const std::vector<int> numbers = numbers_up_to(200);
+  Job job = squares(numbers, outcome);
+  job.deliver = [&, deliver = job.deliver](std::size_t i, std::string result) {
+    deliver(i, std::move(result));
+    if (i == 20) {
+      others.wires().cut_off(1);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  };
+  farm.run(job);
+  expect_squares(outcome, 200);
+  EXPECT_TRUE(farm.report().ranks[1].lost);
+  EXPECT_FALSE(farm.report().ranks[2].lost);
+}
+
 TEST(TaskFarm, WhoSpeaksAgainTakesPartAgain) {
   const Deadline deadline("0.05");
   std::atomic<int> begun = 0;

@@ -1,6 +1,7 @@
 // Ranks that are threads of one process: everything about the farm that needs no MPI.
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <memory>
 #include <mutex>
@@ -13,15 +14,21 @@ namespace spincat::test {
 
 // The wires between the ranks.
 struct Wires {
-  explicit Wires(int ranks) : inbox(static_cast<std::size_t>(ranks)), mute(inbox.size(), false) {}
+  explicit Wires(int ranks) : inbox(static_cast<std::size_t>(ranks)), mute(inbox.size(), false), cut(inbox.size(), false) {}
 
   std::mutex mutex;
   std::vector<std::deque<Message>> inbox;
   std::vector<bool> mute;  // what these ranks say is lost, as if they were dead
+  std::vector<bool> cut;   // whose wire to and from rank 0 is known to be broken
 
   void silence(int rank, bool silent = true) {
     const std::lock_guard lock(mutex);
     mute[static_cast<std::size_t>(rank)] = silent;
+  }
+
+  void cut_off(int rank) {
+    const std::lock_guard lock(mutex);
+    cut[static_cast<std::size_t>(rank)] = true;
   }
 };
 
@@ -36,7 +43,7 @@ class ThreadCommunicator final : public Communicator {
 
   void send(int to, int tag, SharedBytes bytes) override {
     const std::lock_guard lock(wires_->mutex);
-    if (!wires_->mute[static_cast<std::size_t>(rank_)]) {
+    if (!wires_->mute[static_cast<std::size_t>(rank_)] && !is_cut(to)) {
       wires_->inbox[static_cast<std::size_t>(to)].push_back({rank_, tag, *bytes});
     }
   }
@@ -54,8 +61,14 @@ class ThreadCommunicator final : public Communicator {
 
   std::size_t under_way() const override { return 0; }
   void give_up(int) override {}
+  bool is_cut_off(int rank) const override {
+    const std::lock_guard lock(wires_->mutex);
+    return is_cut(rank);
+  }
 
  private:
+  bool is_cut(int other) const { return wires_->cut[static_cast<std::size_t>(std::max(rank_, other))]; }
+
   std::shared_ptr<Wires> wires_;
   int rank_;
 };

@@ -38,8 +38,11 @@ class Communicator {
   // How many messages are on their way, to or from this rank, as far as this rank knows.
   virtual std::size_t under_way() const = 0;
 
-  // Call before the end when a rank was lost: what is on its way to or from it is given up, and leaving does not wait.
+  // From now on nothing is sent to or heard from this rank, and leaving does not wait for it.
   virtual void give_up(int rank) = 0;
+
+  // Whether a rank was given up, or a message to or from it failed: what followed would be put together wrongly.
+  virtual bool is_cut_off(int rank) const = 0;
 };
 
 // One process alone.
@@ -53,6 +56,7 @@ class SerialCommunicator final : public Communicator {
   std::optional<Message> receive() override { return std::nullopt; }
   std::size_t under_way() const override { return 0; }
   void give_up(int) override {}
+  bool is_cut_off(int) const override { return false; }
 };
 
 }  // namespace spincat

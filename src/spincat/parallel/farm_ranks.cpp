@@ -11,7 +11,7 @@ namespace {
 
 bool is_in_our_sight(const farm::Greeting& greeting) {
   static const farm::Greeting own = farm::own_greeting();
-  return greeting.process > 0 && greeting.processes == own.processes;
+  return greeting.process > 0 && greeting.process != own.process && greeting.processes == own.processes;
 }
 
 }  // namespace
@@ -20,18 +20,16 @@ bool TaskFarm::Rank::is_gone() const {
   return is_in_our_sight(greeting) && !is_there(greeting.process);
 }
 
-bool TaskFarm::Rank::should_be_given_up(Clock::duration waited) const {
+bool TaskFarm::Rank::should_be_given_up(Clock::duration silent, bool is_cut_off) const {
   if (is_gone()) {
     return true;
   }
-  if (is_in_our_sight(greeting)) {  // alive: at the end of a task, or stopped
-    const bool stopped = is_stopped(greeting.process) && waited > std::chrono::milliseconds(500);
-    if (stopped) {
-      ::kill(static_cast<pid_t>(greeting.process), SIGKILL);
-    }
-    return stopped;
+  const bool in_sight = is_in_our_sight(greeting);
+  const bool stopped = in_sight && is_stopped(greeting.process) && silent > std::chrono::milliseconds(500);
+  if (in_sight && (stopped || is_cut_off)) {
+    ::kill(static_cast<pid_t>(greeting.process), SIGKILL);
   }
-  return waited > silence_deadline() * (lost ? 1 : 10);
+  return stopped || is_cut_off || silent > silence_deadline() * (lost ? 1 : 10);
 }
 
 std::chrono::duration<double> silence_deadline() {

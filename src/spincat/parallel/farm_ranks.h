@@ -39,9 +39,9 @@ struct TaskFarm::Rank {
   // Whether its process has ended; false where that cannot be known, as of another host.
   bool is_gone() const;
 
-  // At the end: whether waiting for it is in vain, so long after it was told. Kills it where it is stopped on this
-  // host.
-  bool should_be_given_up(Clock::duration waited) const;
+  // At the end: whether waiting for it is in vain, after it was silent for so long. Kills it where it is on this host
+  // and stopped or cut off: it would never end.
+  bool should_be_given_up(Clock::duration silent, bool is_cut_off) const;
 };
 
 // The median of the last values.

@@ -8,30 +8,40 @@ namespace spincat {
 
 // Not at all while something happens, a moment while large messages are on their way (MPI moves them on only while it
 // is called, some megabytes at a time), then longer and longer, up to two milliseconds: a rank that only waits uses a
-// percent or two of a core, and whoever works has two tasks (task_farm.cpp), so that it does not wait for us.
+// percent or two of a core. Beside threads that work, half a millisecond is the least: each look takes a core from
+// them (2 % of it, with shorter pauses), and whoever works has two tasks (task_farm.cpp), so nobody waits for us.
 class Pause {
  public:
   using Clock = std::chrono::steady_clock;
 
-  // The next pause, after a look in which something `happened`, with messages `under_way` or not.
-  std::chrono::microseconds next(bool happened, bool under_way) {
+  // What a rank saw when it looked.
+  struct Look {
+    bool happened = false;      // a message came, a task was finished
+    bool under_way = false;     // messages are on their way
+    bool threads_work = false;  // this rank's own, at a task
+  };
+
+  // The next pause.
+  std::chrono::microseconds after(const Look& look) {
     const auto now = Clock::now();
-    if (happened) {
+    if (look.happened) {
       last_ = now;
       pause_ = kShortest;
       return std::chrono::microseconds(0);
     }
-    if (under_way && now - last_ < kTransferPatience) {  // a message to a lost rank never ends
-      return kTransfer;
+    const auto least = look.threads_work ? kBesideWork : kShortest;
+    if (look.under_way && now - last_ < kTransferPatience) {  // a message to a lost rank never ends
+      return std::max(kTransfer, least);
     }
-    const auto pause = pause_;
-    pause_ = std::min(2 * pause_, kLongest);
+    const auto pause = std::max(pause_, least);
+    pause_ = std::min(2 * pause, kLongest);
     return pause;
   }
 
  private:
   static constexpr std::chrono::microseconds kShortest{20};
   static constexpr std::chrono::microseconds kTransfer{50};
+  static constexpr std::chrono::microseconds kBesideWork{500};
   static constexpr std::chrono::microseconds kLongest{2000};
   static constexpr std::chrono::milliseconds kTransferPatience{20};
   std::chrono::microseconds pause_ = kShortest;

@@ -71,7 +71,7 @@ class TaskFarm::Run {
         last_tick_ = Clock::now();
         tick();
       }
-      rest(pause.next(happened, farm_.ranks_.under_way() > 0));
+      rest(pause.after({happened, farm_.ranks_.under_way() > 0, tasks_here() > 0}));
     }
     const std::chrono::duration<double> spent = Clock::now() - start;
     farm_.seconds_ += spent.count();
@@ -133,6 +133,9 @@ class TaskFarm::Run {
            std::ranges::all_of(farm_.others_, [](const Rank& rank) { return rank.lost || rank.refused; });
   }
 
+  // Those that our own threads have.
+  std::size_t tasks_here() const { return crew_ ? crew_->tasks() : 0; }
+
   bool take_here() {
     bool taken = false;
     while (crew_) {
@@ -140,7 +143,6 @@ class TaskFarm::Run {
       if (!result) {
         break;
       }
-      --here_;
       farm_.busy_here_ += result->seconds;
       accept(kHere, std::move(*result));
       taken = true;
@@ -283,7 +285,7 @@ class TaskFarm::Run {
 
   bool hand_out_here(std::size_t most, Clock::time_point now, TaskBoard::Seconds patience) {
     bool handed = false;
-    while (here_ < most && works_here()) {
+    while (tasks_here() < most && works_here()) {
       const auto task = board_.next_for(kHere, now, patience);
       if (!task) {
         break;
@@ -299,7 +301,6 @@ class TaskFarm::Run {
       crew_ = std::make_unique<ThreadCrew>(job_.work, farm_.threads_);
     }
     crew_->give(task, job_.task(task));
-    ++here_;
   }
 
   // Takes tasks back from ranks that say nothing.
@@ -315,7 +316,8 @@ class TaskFarm::Run {
       if (stalled) {
         rank.last_heard = now;
       }
-      const bool is_away = rank.left || now - rank.last_heard > silence_deadline() || rank.is_gone();
+      const bool is_away = rank.left || now - rank.last_heard > silence_deadline() || rank.is_gone() ||
+                           farm_.ranks_.is_cut_off(static_cast<int>(r) + 1);
       if (!rank.lost && !rank.refused && is_away) {
         rank.lost = true;
         rank.tasks = 0;
@@ -350,7 +352,6 @@ class TaskFarm::Run {
   std::optional<bool> tells_;  // whether they are told all results
   TaskBoard board_;
   std::map<std::size_t, TaskResult> waiting_;  // for their turn
-  std::size_t here_ = 0;                       // tasks that our own threads have
   RunningMedian median_;                       // seconds a task takes
   Clock::time_point last_tick_;
   Clock::time_point last_look_ = Clock::now();
@@ -425,16 +426,19 @@ void TaskFarm::dismiss() {
     while (const std::optional<Message> message = ranks_.receive()) {
       heard = true;
       Rank& rank = others_[static_cast<std::size_t>(message->from) - 1];
-      rank.lost = false;
+      rank.heard();
       rank.left = rank.left || message->tag == farm::kBye;
     }
     for (std::size_t r = 0; r < others_.size(); ++r) {
-      if (here(others_[r]) && others_[r].should_be_given_up(Clock::now() - start)) {
-        others_[r].given_up = true;
-        ranks_.give_up(static_cast<int>(r) + 1);
+      Rank& rank = others_[r];
+      const int number = static_cast<int>(r) + 1;
+      const auto silent = Clock::now() - std::max(start, rank.last_heard);
+      if (here(rank) && rank.should_be_given_up(silent, ranks_.is_cut_off(number))) {
+        rank.given_up = true;
+        ranks_.give_up(number);
       }
     }
-    std::this_thread::sleep_for(pause.next(heard, false));
+    std::this_thread::sleep_for(pause.after({.happened = heard}));
   }
 }
 

@@ -43,18 +43,33 @@ class Server {
  private:
   void work(const std::function<void()>& keep_going) {
     Pause pause;
-    while (!quit_ && !is_orphan()) {
+    while (!quit_ && !is_orphan() && !ranks_.is_cut_off(0)) {
       keep_going();
       bool happened = hear();
       happened = answer() || happened;  // both
       beat();
-      rest(pause.next(happened, ranks_.under_way() > 0));
+      rest(pause.after({happened, ranks_.under_way() > 0, crew_ && crew_->tasks() > 0}));
     }
   }
 
   void leave() {
-    crew_.reset();
+    end_crew();
     say(farm::kBye, {});
+  }
+
+  // Waits for the tasks that are under way; a rank that is heard is not given up.
+  void end_crew() {
+    if (!crew_) {
+      return;
+    }
+    crew_->forget();
+    while (crew_->tasks() > 0) {
+      if (!crew_->take()) {
+        crew_->wait(kBetweenBeats);
+        beat();
+      }
+    }
+    crew_.reset();
   }
 
   void say(farm::Tag tag, std::string bytes) {
@@ -99,7 +114,7 @@ class Server {
         break;
       }
       case farm::kEndOfJob:
-        crew_.reset();
+        end_crew();
         break;
       case farm::kQuit:
         quit_ = true;
@@ -110,7 +125,7 @@ class Server {
   }
 
   void start_job(std::string_view bytes) {
-    crew_.reset();
+    end_crew();
     Unpacker fields(bytes);
     const farm::JobStart start = farm::unpack_job_start(fields);
     job_ = start.job;

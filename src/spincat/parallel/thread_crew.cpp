@@ -31,6 +31,7 @@ ThreadCrew::~ThreadCrew() {
 }
 
 void ThreadCrew::give(std::size_t task, std::string bytes) {
+  ++tasks_;
   {
     const std::lock_guard lock(mutex_);
     given_.push_back({task, std::move(bytes)});
@@ -45,7 +46,14 @@ std::optional<TaskResult> ThreadCrew::take() {
   }
   TaskResult result = std::move(finished_.front());
   finished_.pop_front();
+  --tasks_;
   return result;
+}
+
+void ThreadCrew::forget() {
+  const std::lock_guard lock(mutex_);
+  tasks_ -= given_.size();
+  given_.clear();
 }
 
 void ThreadCrew::wait(std::chrono::microseconds longest) {

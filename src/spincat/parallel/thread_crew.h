@@ -25,7 +25,9 @@ class ThreadCrew {
   ThreadCrew& operator=(const ThreadCrew&) = delete;
 
   void give(std::size_t task, std::string bytes);
+  std::size_t tasks() const { return tasks_; }  // given and not yet taken
   std::optional<TaskResult> take();  // a finished task, if there is one
+  void forget();                     // tasks that nobody has begun
   // Waits until a task is finished, but no longer than this.
   void wait(std::chrono::microseconds longest);
 
@@ -39,6 +41,7 @@ class ThreadCrew {
   TaskResult do_task(const Given& given) const;
 
   const Work work_;
+  std::size_t tasks_ = 0;  // the owner's
   std::mutex mutex_;  // guards what follows
   std::condition_variable given_changed_;
   std::condition_variable finished_changed_;

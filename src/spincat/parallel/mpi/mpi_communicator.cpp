@@ -53,7 +53,6 @@ struct IncomingPiece {
 
 struct InBox {
   std::deque<IncomingPiece> under_way;
-  bool is_broken = false;  // a piece was lost: what comes after it cannot be put together
   bool in_message = false;
   std::uint64_t length = 0;  // of the message that is being put together
   Message message;
@@ -80,13 +79,13 @@ class MpiCommunicator final : public Communicator {
     MPI_Comm_free(&host);
     out_.resize(static_cast<std::size_t>(size_));
     in_.resize(static_cast<std::size_t>(size_));
-    given_up_.resize(static_cast<std::size_t>(size_), false);
+    cut_off_.resize(static_cast<std::size_t>(size_), false);
   }
 
   // Sends what is to be sent, and answers for a moment what the other side of a network still asks: MPICH over TCP
   // otherwise hangs at its end, where one rank asks and the other no longer listens.
   ~MpiCommunicator() override {
-    const bool all_there = std::ranges::find(given_up_, true) == given_up_.end();
+    const bool all_there = std::ranges::find(cut_off_, true) == cut_off_.end();
     const bool network = ranks_on_host_ < size_;
     const auto end = std::chrono::steady_clock::now() + (network ? kLastAnswers : std::chrono::milliseconds(0));
     while (all_there && (has_outgoing() || std::chrono::steady_clock::now() < end)) {
@@ -111,6 +110,9 @@ class MpiCommunicator final : public Communicator {
   }
 
   void send(int to, int tag, SharedBytes bytes) override {
+    if (is_cut_off(to)) {
+      return;
+    }
     auto message = std::make_shared<Outgoing>();
     message->tag = tag;
     message->bytes = std::move(bytes);
@@ -133,7 +135,7 @@ class MpiCommunicator final : public Communicator {
     std::size_t count = 0;
     for (int r = 0; r < size_; ++r) {
       const auto i = static_cast<std::size_t>(r);
-      if (!given_up_[i]) {
+      if (!cut_off_[i]) {
         count += out_[i].waiting.size() + out_[i].under_way.size() + in_[i].under_way.size();
       }
     }
@@ -141,9 +143,11 @@ class MpiCommunicator final : public Communicator {
   }
 
   void give_up(int rank) override {
-    given_up_[static_cast<std::size_t>(rank)] = true;
+    cut_off_[static_cast<std::size_t>(rank)] = true;
     out_[static_cast<std::size_t>(rank)].waiting.clear();
   }
+
+  bool is_cut_off(int rank) const override { return cut_off_[static_cast<std::size_t>(rank)]; }
 
  private:
   bool has_outgoing() const {
@@ -159,8 +163,14 @@ class MpiCommunicator final : public Communicator {
 
   void move_on_sending(int to) {
     OutBox& box = out_[static_cast<std::size_t>(to)];
-    // What could not be sent is dropped: its rank falls silent and is taken to be lost.
-    while (!box.under_way.empty() && state_of(box.under_way.front().request) != Transfer::under_way) {
+    while (!box.under_way.empty()) {
+      const Transfer state = state_of(box.under_way.front().request);
+      if (state == Transfer::under_way) {
+        break;
+      }
+      if (state == Transfer::failed) {
+        give_up(to);
+      }
       box.under_way.pop_front();
     }
     while (!box.waiting.empty() && box.under_way.size() < kPiecesAtOnce) {
@@ -177,7 +187,7 @@ class MpiCommunicator final : public Communicator {
     std::memcpy(message.first.data() + kHead, message.bytes->data(), in_first);
   }
 
-  static void start_piece(int to, OutBox& box) {
+  void start_piece(int to, OutBox& box) {
     const std::shared_ptr<Outgoing> message = box.waiting.front();
     const bool is_first = message->first.empty();
     if (is_first) {
@@ -189,9 +199,13 @@ class MpiCommunicator final : public Communicator {
     message->begun += is_first ? size - kHead : size;
     Piece& piece = box.under_way.emplace_back();
     piece.message = message;
-    MPI_Isend(from, static_cast<int>(size), MPI_BYTE, to, message->tag, MPI_COMM_WORLD, &piece.request);
+    const int sent =
+        MPI_Isend(from, static_cast<int>(size), MPI_BYTE, to, message->tag, MPI_COMM_WORLD, &piece.request);
     // NOLINTNEXTLINE(clang-analyzer-optin.mpi.MPI-Checker): MPI_Test ends it
-    if (message->begun == message->bytes->size()) {
+    if (sent != MPI_SUCCESS) {
+      box.under_way.pop_back();
+      give_up(to);
+    } else if (message->begun == message->bytes->size()) {
       box.waiting.pop_front();
     }
   }
@@ -212,7 +226,7 @@ class MpiCommunicator final : public Communicator {
       piece.tag = status.MPI_TAG;
       piece.bytes.resize(static_cast<std::size_t>(size));
       if (MPI_Imrecv(piece.bytes.data(), size, MPI_BYTE, &message, &piece.request) != MPI_SUCCESS) {
-        in_[static_cast<std::size_t>(status.MPI_SOURCE)].is_broken = true;
+        give_up(status.MPI_SOURCE);
       }
     }
   }
@@ -227,8 +241,10 @@ class MpiCommunicator final : public Communicator {
       }
       const IncomingPiece piece = std::move(box.under_way.front());
       box.under_way.pop_front();
-      box.is_broken = box.is_broken || state == Transfer::failed;
-      if (box.is_broken) {  // its rank is silent from now on, and taken to be lost
+      if (state == Transfer::failed || (!box.in_message && piece.bytes.size() < kHead)) {
+        give_up(from);
+      }
+      if (is_cut_off(from)) {
         continue;
       }
       if (!box.in_message) {
@@ -254,7 +270,7 @@ class MpiCommunicator final : public Communicator {
   int next_source_ = 0;
   std::vector<OutBox> out_;
   std::vector<InBox> in_;
-  std::vector<bool> given_up_;
+  std::vector<bool> cut_off_;
 };
 
 // Ranks of one host need no network: looking for one takes most of Open MPI's start. What the user has set stays.

@@ -1,0 +1,60 @@
+// A call of MPI that fails on one rank, sending or receiving: what came after it would be put together wrongly.
+#include <gtest/gtest.h>
+
+#include "mpi/launching.h"
+
+namespace spincat::test {
+namespace {
+
+class BrokenLinks : public Launching, public testing::WithParamInterface<Mpi> {
+ protected:
+  void SetUp() override {
+    if (const std::string reason = reason_to_skip(GetParam()); !reason.empty()) {
+      GTEST_SKIP() << reason;
+    }
+    make_dataset(12);
+    ASSERT_EQ(alone("train boxes --threads 1 -o alone.spincat").code, 0);
+  }
+
+  RunResult train_with(const std::string& failure) {
+    fs::remove(dir_.path() / "ranks.spincat");
+    const Mpi& mpi = GetParam();
+    RunResult result =
+        shell(fmt::format("{} {} -n 3 env LD_PRELOAD={}{}.so SPINCAT_FAIL='{}' SPINCAT_DEADLINE=0.5 '{}' "
+                          "train boxes --threads 1 -o ranks.spincat",
+                          mpi.launcher, mpi.recovery, SPINCAT_FAILING_MPI, mpi.name, failure, SPINCAT_COMMAND));
+    EXPECT_TRUE(fs::exists(dir_.path() / failure)) << failure << " did not come";
+    EXPECT_LT(result.code, 124) << failure << " hangs\n" << result.err;
+    return result;
+  }
+
+  // The result is complete before a rank is given up, whatever the launcher then makes of it.
+  void expect_right_after(const std::string& failure) {
+    const RunResult result = train_with(failure);
+    EXPECT_TRUE(bytes("ranks.spincat") == bytes("alone.spincat")) << failure << "\n" << result.err;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Mpi, BrokenLinks, testing::Values(kOpenMpi, kMpich),
+                         [](const auto& each) { return each.param.name; });
+
+TEST_P(BrokenLinks, CostNothingButTime) {
+  for (const char* function : {"MPI_Isend", "MPI_Imrecv", "MPI_Test"}) {
+    for (const int rank : {0, 1}) {
+      for (const int call : {2, 9}) {
+        expect_right_after(fmt::format("{} {} {}", rank, function, call));
+      }
+    }
+  }
+}
+
+TEST_P(BrokenLinks, ARankStoppedWhileMpiStartsEndsTheRunWithAWord) {
+  const RunResult result = train_with("1 MPI_Init_thread 1");
+  EXPECT_NE(result.err.find("spincat: a rank did not answer while MPI started; the same command may be given again"),
+            std::string::npos)
+      << result.err;
+  EXPECT_FALSE(fs::exists(dir_.path() / "ranks.spincat"));
+}
+
+}  // namespace
+}  // namespace spincat::test

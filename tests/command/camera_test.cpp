@@ -286,8 +286,12 @@ TEST_F(CameraCommand, DropsFramesForASlowConsumerInBoundedMemory) {
 #endif
   const fs::path pipe = folder_->path() / "pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  setenv("ASAN_OPTIONS", "quarantine_size_mb=0", 1);  // an address sanitizer keeps what was freed, else
+  // An address sanitizer keeps what was freed, else.
+  const char* options = std::getenv("ASAN_OPTIONS");
+  const std::string ours = options != nullptr ? options : "";
+  setenv("ASAN_OPTIONS", (ours + ":quarantine_size_mb=0").c_str(), 1);
   const Running running = start({"camera", "m.spincat", "frames", "--loop", "--realtime"}, "pipe");
+  setenv("ASAN_OPTIONS", ours.c_str(), 1);
   std::ifstream reader(pipe);
   std::string line;
   ASSERT_TRUE(std::getline(reader, line));

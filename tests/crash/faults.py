@@ -150,7 +150,7 @@ class Faults(unittest.TestCase):
                 while not (self.data / journal).exists():
                     time.sleep(0.01)
                 time.sleep(0.3)
-                self.expect_refusal(self.run_command(arguments), f"{journal}: is in use by another ")
+                self.expect_refusal(self.run_command(arguments), f"{journal}: is in use by another run")
                 first.kill()
                 first.communicate()
                 self.tearDown()

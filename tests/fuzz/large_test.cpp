@@ -1,5 +1,5 @@
-// Hard files of 300 kB, 1 MB and 10 MB: none may take more memory than 20 times its
-// size and 16 MB, and none more than time in proportion (a reader that does not would outlast the limit of the tests).
+// Hard files of 300 kB, 1 MB and 10 MB: none may take more memory than 20 times its size and 16 MB, and none more than
+// time in proportion (a reader that does not would outlast the limit of the tests).
 #include <gtest/gtest.h>
 
 #include <algorithm>

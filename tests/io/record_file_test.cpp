@@ -6,6 +6,7 @@
 #include "spincat/error.h"
 #include "spincat/io/file.h"
 #include "support/expect_error.h"
+#include "support/record_bytes.h"
 #include "support/temp_dir.h"
 
 namespace spincat {
@@ -54,14 +55,14 @@ std::string record_of(std::string_view payload) {
 
 TEST(RecordFile, GivesBackWhatWasPacked) {
   for (const json& content : {small_content(), json::object(), json(), json("text"), json::array({json::array()})}) {
-    const std::string bytes = pack_record("model", 2, content);
+    const std::string bytes = test::record_bytes("model", 2, content);
     EXPECT_EQ(unpack_record(bytes, "model", 2), content);
-    EXPECT_EQ(pack_record("model", 2, unpack_record(bytes, "model", 3)), bytes);
+    EXPECT_EQ(test::record_bytes("model", 2, unpack_record(bytes, "model", 3)), bytes);
   }
 }
 
 TEST(RecordFile, HasTheDocumentedLayout) {
-  EXPECT_EQ(pack_record("model", 1, json{{"a", json::binary({1, 2})}}), record_of("\xA1\x61\x61\x42\x01\x02"));
+  EXPECT_EQ(test::record_bytes("model", 1, json{{"a", json::binary({1, 2})}}), record_of("\xA1\x61\x61\x42\x01\x02"));
 }
 
 TEST(RecordFile, KeepsLargeBlobs) {
@@ -70,7 +71,7 @@ TEST(RecordFile, KeepsLargeBlobs) {
     blob[i] = static_cast<std::uint8_t>(i * 7);
   }
   const json content = {{"blob", json::binary(blob)}};
-  EXPECT_EQ(unpack_record(pack_record("model", 1, content), "model", 1), content);
+  EXPECT_EQ(unpack_record(test::record_bytes("model", 1, content), "model", 1), content);
 }
 
 TEST(RecordFile, WritesWhatItPacks) {
@@ -81,11 +82,11 @@ TEST(RecordFile, WritesWhatItPacks) {
   EXPECT_EQ(read_file(file), "old");
   content["blob"] = json::binary(std::vector<std::uint8_t>(20'000'000, 7));
   write_record(file, "model", 2, content);
-  EXPECT_TRUE(read_file(file) == pack_record("model", 2, content));
+  EXPECT_TRUE(unpack_record(read_file(file), "model", 2) == content);
 }
 
 TEST(RecordFile, RefusesEveryDamagedByte) {
-  const std::string good = pack_record("model", 2, small_content());
+  const std::string good = test::record_bytes("model", 2, small_content());
   for (std::size_t i = 0; i < good.size(); ++i) {
     for (int change = 1; change < 256; ++change) {
       std::string bad = good;
@@ -96,7 +97,7 @@ TEST(RecordFile, RefusesEveryDamagedByte) {
 }
 
 TEST(RecordFile, RefusesEveryTruncation) {
-  const std::string good = pack_record("model", 2, small_content());
+  const std::string good = test::record_bytes("model", 2, small_content());
   for (std::size_t size = 0; size < good.size(); ++size) {
     const std::string error = error_of(good.substr(0, size));
     ASSERT_EQ(error.substr(0, 12), size < 8 ? "is not a spi" : "is truncated") << size;
@@ -104,10 +105,10 @@ TEST(RecordFile, RefusesEveryTruncation) {
 }
 
 TEST(RecordFile, NamesWhatIsWrong) {
-  const std::string good = pack_record("model", 2, small_content());
+  const std::string good = test::record_bytes("model", 2, small_content());
   const std::string size = std::to_string(good.size());
   EXPECT_EQ(error_of("OFF\n8 6 12\n"), "is not a spincat file");
-  EXPECT_EQ(error_of(pack_record("journal", 9, 1)), "is a spincat journal, not a model");
+  EXPECT_EQ(error_of(test::record_bytes("journal", 9, 1)), "is a spincat journal, not a model");
   EXPECT_EQ(error_of(good.substr(0, good.size() - 1)),
             "is truncated: expected " + size + " bytes, has " + std::to_string(good.size() - 1));
   EXPECT_EQ(error_of(good + "\n"), "is too long: expected " + size + " bytes, has " + std::to_string(good.size() + 1));
@@ -117,7 +118,7 @@ TEST(RecordFile, NamesWhatIsWrong) {
 }
 
 TEST(RecordFile, NamesANewerVersionBeforeAnythingBehindIt) {
-  std::string newer = pack_record("model", 3, small_content());
+  std::string newer = test::record_bytes("model", 3, small_content());
   const std::string message = "was written by a newer spincat (model format 3, this one reads up to 2)";
   EXPECT_EQ(error_of(newer), message);
   newer.back() ^= 1;
@@ -126,7 +127,7 @@ TEST(RecordFile, NamesANewerVersionBeforeAnythingBehindIt) {
 }
 
 TEST(RecordFile, NamesAnOlderVersion) {
-  const std::string old = pack_record("model", 1, small_content());
+  const std::string old = test::record_bytes("model", 1, small_content());
   EXPECT_EQ(unpack_record(old, "model", 3, 1), small_content());
   EXPECT_EQ(test::input_error([&] { unpack_record(old, "model", 3, 2); }),
             "was written by an older spincat (model format 1, this one reads from 2 on)");
@@ -135,10 +136,10 @@ TEST(RecordFile, NamesAnOlderVersion) {
 // A byte for each number, sixteen in memory, and three times that while the list grows.
 TEST(RecordFile, RefusesContentThatIsFarLargerInMemory) {
   const json list = json(std::vector<int>(1'000'000, 1));
-  EXPECT_THROW(pack_record("model", 1, list), InputError);
+  EXPECT_THROW(test::record_bytes("model", 1, list), InputError);
   const std::string zeros = "\x9A\x00\x0F\x42\x40"s + std::string(1'000'000, '\0');
   EXPECT_EQ(error_of(record_of(zeros)), "is damaged: its content would take 48000112 bytes of memory");
-  EXPECT_EQ(unpack_record(pack_record("model", 1, json(std::vector<int>(100'000, 1))), "model", 1).size(), 100'000U);
+  EXPECT_EQ(unpack_record(test::record_bytes("model", 1, json(std::vector<int>(100'000, 1))), "model", 1).size(), 100'000U);
 }
 
 TEST(RecordFile, RefusesLengthsThatCannotBe) {
@@ -153,8 +154,13 @@ TEST(RecordFile, NestsThirtyTwoDeepAndNoDeeper) {
   for (int i = 0; i < 32; ++i) {
     content = json::array({std::move(content)});
   }
-  EXPECT_EQ(unpack_record(pack_record("model", 1, content), "model", 1), content);
-  EXPECT_THROW(pack_record("model", 1, json::array({content})), InputError);
+  EXPECT_EQ(unpack_record(test::record_bytes("model", 1, content), "model", 1), content);
+  EXPECT_THROW(test::record_bytes("model", 1, json::array({content})), InputError);
+}
+
+TEST(RecordFile, WhatCborCannotSayPlainlyIsNotWritten) {
+  EXPECT_THROW(test::record_bytes("model", 1, {{"a", json::binary({1, 2}, 7)}}), InputError);
+  EXPECT_THROW(test::record_bytes("model", 1, json::array({json(json::value_t::discarded)})), InputError);
 }
 
 TEST(RecordFile, RefusesDeepNesting) {

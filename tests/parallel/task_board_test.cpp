@@ -21,7 +21,7 @@ TEST(TaskBoard, HandsOutInOrderUpToTheWindow) {
   EXPECT_EQ(board.next_for(2, kStart, kPatience), 1U);
   EXPECT_EQ(board.next_for(1, kStart, kPatience), 2U);
   EXPECT_EQ(board.next_for(1, kStart, kPatience), std::nullopt);
-  EXPECT_TRUE(board.finish(0, 1));
+  EXPECT_TRUE(board.finish(0));
   EXPECT_EQ(board.next_for(1, kStart, kPatience), std::nullopt);  // not delivered yet
   board.deliver();
   EXPECT_EQ(board.next_for(1, kStart, kPatience), 3U);
@@ -42,8 +42,8 @@ TEST(TaskBoard, TheFirstResultCounts) {
   board.next_for(1, kStart, kPatience);
   board.take_back(1);
   board.next_for(2, kStart, kPatience);
-  EXPECT_TRUE(board.finish(0, 1));  // it was not lost after all
-  EXPECT_FALSE(board.finish(0, 2));
+  EXPECT_TRUE(board.finish(0));  // it was not lost after all
+  EXPECT_FALSE(board.finish(0));
   board.deliver();
   EXPECT_TRUE(board.all_delivered());
 }
@@ -52,7 +52,7 @@ TEST(TaskBoard, ATaskThatWasTakenBackAndCameIsNotDoneAgain) {
   TaskBoard board(1, 10);
   board.next_for(1, kStart, kPatience);
   board.take_back(1);
-  EXPECT_TRUE(board.finish(0, 1));
+  EXPECT_TRUE(board.finish(0));
   EXPECT_EQ(board.next_for(2, kStart, kPatience), std::nullopt);
 }
 
@@ -69,8 +69,8 @@ TEST(TaskBoard, AtTheEndSlowTasksAreDoneTwiceByOthers) {
 
 TEST(TaskBoard, PassesOverWhatIsDoneAlready) {
   TaskBoard board(3, 10);
-  board.finish(0, 0);
-  board.finish(1, 0);
+  board.finish(0);
+  board.finish(1);
   EXPECT_EQ(board.next_for(1, kStart, kPatience), 2U);
 }
 

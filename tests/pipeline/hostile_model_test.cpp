@@ -17,6 +17,7 @@
 #include "spincat/pipeline/model.h"
 #include "support/expect_error.h"
 #include "support/float_blob.h"
+#include "support/record_bytes.h"
 #include "support/temp_dir.h"
 
 namespace spincat {
@@ -58,7 +59,7 @@ std::string problem_after(const std::function<void(Json&)>& change) {
   const TempDir dir;
   Json content = content_of(small_model());
   change(content);
-  const auto file = dir.write("m.spincat", pack_record("model", kModelVersion, content));
+  const auto file = dir.write("m.spincat", test::record_bytes("model", kModelVersion, content));
   const std::string line = input_error([&] { read_model(file); });
   const std::string name = file.string() + ": ";
   return line.starts_with(name) ? line.substr(name.size()) : line;

@@ -12,6 +12,7 @@
 #include "spincat/pipeline/settings_json.h"
 #include "support/expect_error.h"
 #include "support/float_blob.h"
+#include "support/record_bytes.h"
 #include "support/temp_dir.h"
 
 namespace spincat {
@@ -108,7 +109,7 @@ std::string problem_with(const std::string& bytes) {
 std::string problem_after(const std::function<void(Json&)>& change) {
   Json content = small_content();
   change(content);
-  return problem_with(pack_record("model", kModelVersion, content));
+  return problem_with(test::record_bytes("model", kModelVersion, content));
 }
 
 TEST(ModelFile, RoundTripsExactly) {
@@ -160,16 +161,16 @@ TEST(ModelFile, EveryDamagedByteIsRefused) {
 TEST(ModelFile, WhatIsNoModelIsRefused) {
   EXPECT_EQ(problem_with("OFF\n0 0 0\n"), "is not a spincat file");
   EXPECT_EQ(problem_with(""), "is not a spincat file");
-  EXPECT_NE(problem_with(pack_record("features", 1, small_content())).find("features"), std::string::npos);
-  EXPECT_NE(problem_with(pack_record("model", kModelVersion + 1, {})).find("newer spincat"), std::string::npos);
+  EXPECT_NE(problem_with(test::record_bytes("features", 1, small_content())).find("features"), std::string::npos);
+  EXPECT_NE(problem_with(test::record_bytes("model", kModelVersion + 1, {})).find("newer spincat"), std::string::npos);
   const TempDir dir;
   EXPECT_NE(input_error([&] { read_model(dir / "none"); }).find("none"), std::string::npos);
 }
 
 TEST(ModelFile, AnotherVersionIsNamed) {
-  EXPECT_EQ(problem_with(pack_record("model", 1, small_content())),
+  EXPECT_EQ(problem_with(test::record_bytes("model", 1, small_content())),
             "was written by an older spincat (model format 1, this one reads from 2 on)");
-  EXPECT_EQ(problem_with(pack_record("model", 3, small_content())),
+  EXPECT_EQ(problem_with(test::record_bytes("model", 3, small_content())),
             "was written by a newer spincat (model format 3, this one reads up to 2)");
 }
 
@@ -186,7 +187,7 @@ TEST(ModelFile, AMissingMemberIsNamed) {
     EXPECT_EQ(problem_after([&](Json& json) { json["calibration"].erase(name); }),
               "model: '" + std::string(name) + "' is missing");
   }
-  EXPECT_NE(problem_with(pack_record("model", kModelVersion, Json::array({1, 2, 3}))), "no error");
+  EXPECT_NE(problem_with(test::record_bytes("model", kModelVersion, Json::array({1, 2, 3}))), "no error");
 }
 
 TEST(ModelFile, AMemberOfTheWrongTypeIsRefused) {
@@ -255,7 +256,7 @@ TEST(ModelFile, HostileRbfJudgesAreRefused) {
   const auto problem_of = [&](const char* name, const Json& value) {
     Json content = good;
     content["judges"][name] = value;
-    return problem_with(pack_record("model", kModelVersion, content));
+    return problem_with(test::record_bytes("model", kModelVersion, content));
   };
   ASSERT_EQ(problem_of("features", 5), "no error");
   EXPECT_EQ(problem_of("features", 4), "model: 'blocks' add up to 5, not to 4 features");
@@ -279,7 +280,7 @@ TEST(ModelFile, HostileRbfJudgesAreRefused) {
   for (const char* name : {"blocks", "scale", "supports"}) {
     Json content = good;
     content["judges"].erase(name);
-    EXPECT_EQ(problem_with(pack_record("model", kModelVersion, content)),
+    EXPECT_EQ(problem_with(test::record_bytes("model", kModelVersion, content)),
               "model: '" + std::string(name) + "' is missing");
   }
 }
@@ -299,7 +300,7 @@ TEST(ModelFile, AHostileCodebookIsRefused) {
   const auto problem_of = [&](const std::function<void(Json&)>& change) {
     Json content = good;
     change(content);
-    return problem_with(pack_record("model", kModelVersion, content));
+    return problem_with(test::record_bytes("model", kModelVersion, content));
   };
   ASSERT_EQ(problem_of([](Json&) {}), "no error");
   for (const Json& wrong : {Json(0), Json(-2), Json(2.5), Json("2"), Json(std::uint64_t{1} << 62), Json(3)}) {

@@ -135,6 +135,9 @@ TEST_F(Sweeps, WhatIsNoJournalIsRefusedAndKept) {
   EXPECT_EQ(read_file(notes), "dear diary\n");
   const auto unended = dir_.write("short.txt", "dear diary");
   EXPECT_EQ(input_error([&] { swept(unended); }), unended.string() + ": is no journal of a sweep");
+  const auto foreign = dir_.write("foreign.json", R"({"sweep":"of the chimney"})");
+  EXPECT_EQ(input_error([&] { swept(foreign); }), foreign.string() + ": is no journal of a sweep");
+  EXPECT_EQ(read_file(foreign), R"({"sweep":"of the chimney"})");
 }
 
 TEST_F(Sweeps, ALineThatNoSweepWroteIsRefused) {

@@ -22,14 +22,6 @@ std::uint64_t memory_of_item(bool is_on_heap) {
   return kInList + (is_on_heap ? kOnHeap : 0);
 }
 
-void check_growth(std::uint64_t memory, std::uint64_t bytes) {
-  constexpr std::uint64_t kFree = 8'000'000;
-  constexpr std::uint64_t kMostGrowth = 12;  // the blobs come on top of it
-  if (memory > kFree + kMostGrowth * bytes) {
-    throw InputError(fmt::format("is damaged: its content would take {} bytes of memory", memory));
-  }
-}
-
 [[noreturn]] void throw_too_deep() {
   throw InputError(fmt::format("is damaged: its content is nested more than {} deep", kDeepest));
 }
@@ -124,16 +116,20 @@ class CborCheck {
   std::uint64_t memory_ = 0;
 };
 
-// What unpacking takes for this item and all in it. Throws where it is nested too deep.
-std::uint64_t memory_of(const json& item, std::size_t level = 0) {
+// Of an item and all in it.
+std::uint64_t memory_of(const json& item, std::size_t level) {
+  if (item.is_discarded() || (item.is_binary() && item.get_binary().has_subtype())) {
+    throw InputError("cannot be written: its content is not plain CBOR");
+  }
   std::uint64_t memory = memory_of_item(item.is_structured() || item.is_string() || item.is_binary());
-  if (item.is_structured() && !item.empty() && level == kDeepest) {
+  if (!item.is_structured()) {
+    return memory;
+  }
+  if (!item.empty() && level == kDeepest) {
     throw_too_deep();
   }
   for (const json& inner : item) {
-    if (item.is_structured()) {
-      memory += memory_of(inner, level + 1) + (item.is_object() ? memory_of_item(true) : 0);
-    }
+    memory += memory_of(inner, level + 1) + (item.is_object() ? memory_of_item(true) : 0);
   }
   return memory;
 }
@@ -144,8 +140,16 @@ void check_cbor(std::string_view bytes) {
   CborCheck(bytes).run();
 }
 
-void check_as_cbor(const json& content, std::uint64_t bytes) {
-  check_growth(memory_of(content), bytes);
+std::uint64_t memory_to_read(const json& content) {
+  return memory_of(content, 0);
+}
+
+void check_growth(std::uint64_t memory, std::uint64_t bytes) {
+  constexpr std::uint64_t kFree = 8'000'000;
+  constexpr std::uint64_t kMostGrowth = 12;  // the blobs come on top of it
+  if (memory > kFree + kMostGrowth * bytes) {
+    throw InputError(fmt::format("is damaged: its content would take {} bytes of memory", memory));
+  }
 }
 
 }  // namespace spincat

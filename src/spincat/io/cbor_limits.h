@@ -8,10 +8,13 @@
 
 namespace spincat {
 
-// Both throw InputError where the content is nested more than 32 deep or would take far more memory than its bytes, and
-// the first where they are not CBOR as nlohmann writes it.
+// Throws InputError where the bytes are not CBOR as nlohmann writes it, are nested more than 32 deep or would take far
+// more memory than they are.
 void check_cbor(std::string_view bytes);
-// Of content that makes so many bytes of CBOR.
-void check_as_cbor(const nlohmann::json& content, std::uint64_t bytes);
+
+// The same before content is written: what reading it will take, and whether that is too much for so many bytes. Throw
+// InputError.
+std::uint64_t memory_to_read(const nlohmann::json& content);
+void check_growth(std::uint64_t memory, std::uint64_t bytes);
 
 }  // namespace spincat

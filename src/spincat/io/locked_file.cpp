@@ -10,6 +10,7 @@
 
 #include "spincat/error.h"
 #include "spincat/io/file_lock.h"
+#include "spincat/io/flush_to_disk.h"
 #include "spincat/io/system_words.h"
 
 namespace spincat {
@@ -37,7 +38,7 @@ int open_locked(const std::filesystem::path& name) {
 
 LockedFile::LockedFile(std::filesystem::path name) : name_(std::move(name)), descriptor_(open_locked(name_)) {
   if (descriptor_ < 0 && errno == EWOULDBLOCK) throw RunError(name_.string(), "is in use by another run");
-  if (descriptor_ < 0) fail();
+  if (descriptor_ < 0) fail("cannot write");
 }
 
 LockedFile::~LockedFile() {
@@ -46,7 +47,8 @@ LockedFile::~LockedFile() {
 
 std::uint64_t LockedFile::size() const {
   struct stat status = {};
-  return ::fstat(descriptor_, &status) == 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
+  if (::fstat(descriptor_, &status) != 0) fail("cannot read");
+  return static_cast<std::uint64_t>(status.st_size);
 }
 
 std::optional<std::string> LockedFile::read(std::uint64_t offset, std::uint64_t length) const {
@@ -55,7 +57,8 @@ std::optional<std::string> LockedFile::read(std::uint64_t offset, std::uint64_t 
   while (got < length) {
     const ssize_t read = ::pread(descriptor_, bytes.data() + got, length - got, static_cast<off_t>(offset + got));
     if (read < 0 && errno == EINTR) continue;
-    if (read <= 0) return std::nullopt;
+    if (read < 0) fail("cannot read");
+    if (read == 0) return std::nullopt;
     got += static_cast<std::size_t>(read);
   }
   return bytes;
@@ -65,26 +68,28 @@ void LockedFile::write(std::uint64_t offset, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail();
+    if (written < 0) fail("cannot write");
     bytes.remove_prefix(static_cast<std::size_t>(written));
     offset += static_cast<std::uint64_t>(written);
   }
 }
 
 void LockedFile::cut(std::uint64_t size) {
-  if (::ftruncate(descriptor_, static_cast<off_t>(size)) != 0) fail();
+  if (::ftruncate(descriptor_, static_cast<off_t>(size)) != 0) fail("cannot write");
 }
 
 void LockedFile::flush() {
-  if (::fsync(descriptor_) != 0) fail();
+  if (!flush_to_disk(descriptor_)) fail("cannot write");
+  if (!name_is_on_disk_ && !flush_names(std::filesystem::absolute(name_).parent_path())) fail("cannot write");
+  name_is_on_disk_ = true;
 }
 
 void LockedFile::remove() {
   ::unlink(name_.c_str());
 }
 
-void LockedFile::fail() const {
-  throw RunError(name_.string(), "cannot write: " + in_words(errno));
+void LockedFile::fail(const char* what) const {
+  throw RunError(name_.string(), std::string(what) + ": " + in_words(errno));
 }
 
 }  // namespace spincat

@@ -19,24 +19,23 @@ class LockedFile {
   LockedFile& operator=(const LockedFile&) = delete;
 
   const std::filesystem::path& name() const { return name_; }
+
+  // These throw RunError when the system refuses.
   std::uint64_t size() const;
-
-  // The bytes from `offset` on; nothing where there are fewer or they cannot be read.
-  std::optional<std::string> read(std::uint64_t offset, std::uint64_t length) const;
-
-  // Each throws RunError when the system refuses.
+  std::optional<std::string> read(std::uint64_t offset, std::uint64_t length) const;  // nothing where there are fewer
   void write(std::uint64_t offset, std::string_view bytes);
   void cut(std::uint64_t size);
-  void flush();  // waits until all is on the disk
+  void flush();  // waits until all is on the disk, its name too
 
   // Removes the name; the lock stays until the end.
   void remove();
 
  private:
-  [[noreturn]] void fail() const;
+  [[noreturn]] void fail(const char* what) const;
 
   std::filesystem::path name_;
   int descriptor_;
+  bool name_is_on_disk_ = false;
 };
 
 }  // namespace spincat

@@ -21,6 +21,7 @@
 #include "spincat/error.h"
 #include "spincat/io/file.h"
 #include "spincat/io/file_descriptor.h"
+#include "spincat/io/flush_to_disk.h"
 #include "spincat/io/system_words.h"
 #include "spincat/io/temporary_file.h"
 
@@ -75,11 +76,6 @@ constexpr std::size_t kLarge = std::size_t{16} << 20;  // from so many bytes on,
 constexpr std::size_t kPiece = std::size_t{4} << 20;
 constexpr std::size_t kSector = 4096;  // a multiple of every disk's
 
-// Some file systems cannot flush and say so; that is no reason to fail.
-bool flush_to_disk(int descriptor) {
-  return ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS;
-}
-
 // Pipes and devices know no rename. Appending, because /dev/stdout may be a file that already holds other output.
 int open_straight(const fs::path& file) {
   return file == "/dev/stdout" ? ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0)
@@ -122,10 +118,9 @@ void OutputFile::write_all(std::string_view bytes) {
   }
 }
 
-// Results are flushed to the disk anyway, and taking memory for the cache may take longer than the disk: 0.11 s
-// instead of 0.73 s for a model of 159 MB (docs/performance.md). Returns how many bytes it has written: what lies before the
-// first place and behind the last that the disk can begin or end at goes the usual way, and so does everything where
-// the file system cannot.
+// Results are flushed to the disk anyway, and taking memory for the cache may take longer than the disk itself
+// (docs/performance.md). Returns how many bytes it has written: those before the first place that the disk can begin at,
+// which go the usual way, and whole pieces. What is left is the caller's; all of it where the file system cannot.
 std::size_t OutputFile::write_past_cache(std::string_view bytes) {
   const std::size_t before = (kSector - written_ % kSector) % kSector;
   write_all(bytes.substr(0, before));
@@ -162,9 +157,7 @@ void OutputFile::commit() {
   if (!renames) return;
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail();
   temporary_.clear();
-  // Without this a power cut may forget the rename.
-  const FileDescriptor folder(::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (folder.valid() && !flush_to_disk(folder.number())) fail();
+  if (!flush_names(folder_of(target_))) fail();
 }
 
 void OutputFile::fail() const {

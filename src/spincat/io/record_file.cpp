@@ -157,9 +157,10 @@ void pack_pieces(std::string_view kind, std::uint32_t version, const json& conte
   if (!is_kind(kind)) {
     throw InputError(fmt::format("a kind of record is up to {} letters from a to z", kLongestKind));
   }
+  const std::uint64_t memory = memory_to_read(content);
   std::uint64_t length = 0;
   to_pieces(content, [&](std::string_view piece) { length += piece.size(); });
-  check_as_cbor(content, length);
+  check_growth(memory, length);
   std::string head(kFileMagic);
   append_little_endian(head, static_cast<std::uint32_t>(kind.size()));
   head += kind;
@@ -178,12 +179,6 @@ void pack_pieces(std::string_view kind, std::uint32_t version, const json& conte
 }
 
 }  // namespace
-
-std::string pack_record(std::string_view kind, std::uint32_t version, const json& content) {
-  std::string bytes;
-  pack_pieces(kind, version, content, [&](std::string_view piece) { bytes += piece; });
-  return bytes;
-}
 
 void write_record(const std::filesystem::path& file, std::string_view kind, std::uint32_t version,
                   const json& content) {

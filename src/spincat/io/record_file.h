@@ -20,12 +20,9 @@
 
 namespace spincat {
 
-// The bytes of a record. `kind` is up to 32 lower-case letters; `content` may be nested 32 deep, and its binary blobs
-// have no subtypes. Throws InputError where unpack_record would refuse it.
-std::string pack_record(std::string_view kind, std::uint32_t version, const nlohmann::json& content);
-
-// Writes these bytes to a file, which holds either what it held before or all of them (OutputFile). Blobs are not
-// copied on their way. Throws InputError and RunError as OutputFile does, too.
+// Writes a record to a file, which holds either what it held before or all of it (OutputFile). `kind` is up to 32
+// lower-case letters; `content` may be nested 32 deep, and its binary blobs have no subtypes; they are not copied on
+// their way. Throws InputError where unpack_record would refuse it, and as OutputFile does.
 void write_record(const std::filesystem::path& file, std::string_view kind, std::uint32_t version,
                   const nlohmann::json& content);
 

@@ -4,10 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
-#include <exception>
-#include <mutex>
 
 #include "spincat/geometry/share_out.h"
 
@@ -38,26 +35,7 @@ int thread_count(int requested, int ranks_on_host) {
 }
 
 void for_each_index(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {
-  std::mutex mutex;
-  std::exception_ptr error;
-  std::atomic<std::size_t> failed_index = count;  // the smallest so far
-  share_out(count, threads, [&](std::size_t i) {
-    if (i > failed_index) {  // those below still run: one of them may fail, too
-      return;
-    }
-    try {
-      body(i);
-    } catch (...) {
-      const std::lock_guard lock(mutex);
-      if (i < failed_index) {
-        failed_index = i;
-        error = std::current_exception();
-      }
-    }
-  });
-  if (error) {
-    std::rethrow_exception(error);
-  }
+  share_out(count, threads, body);
 }
 
 }  // namespace spincat

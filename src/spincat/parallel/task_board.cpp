@@ -38,14 +38,8 @@ std::optional<std::size_t> TaskBoard::slow_one(int rank, Time now, Seconds patie
   return std::nullopt;
 }
 
-bool TaskBoard::finish(std::size_t task, int rank) {
-  const auto pending = pending_.find(task);
-  if (pending != pending_.end()) {
-    std::erase(pending->second.ranks, rank);
-    if (pending->second.ranks.empty() || !done_[task]) {
-      pending_.erase(pending);
-    }
-  }
+bool TaskBoard::finish(std::size_t task) {
+  pending_.erase(task);
   const bool first = !done_[task];
   done_[task] = true;
   return first;

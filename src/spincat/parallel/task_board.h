@@ -30,7 +30,7 @@ class TaskBoard {
   std::optional<std::size_t> next_for(int rank, Time now, Seconds patience);
 
   // A result has come; true when it is the first of this task.
-  bool finish(std::size_t task, int rank);
+  bool finish(std::size_t task);
 
   // The result of the first task that was not delivered was handed on. Precondition: it is done.
   void deliver() { ++delivered_; }

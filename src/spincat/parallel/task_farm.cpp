@@ -94,7 +94,7 @@ class TaskFarm::Run {
     std::size_t known = 0;
     for (std::size_t task = 0; journal_ != nullptr && task < job_.tasks; ++task) {
       if (journal_->has(journal_job_, task)) {
-        board_.finish(task, kHere);
+        board_.finish(task);
         ++known;
       }
     }
@@ -202,7 +202,7 @@ class TaskFarm::Run {
       }
       return;
     }
-    if (!board_.finish(result.task, from)) {
+    if (!board_.finish(result.task)) {
       return;
     }
     median_.add(result.seconds);

@@ -40,8 +40,7 @@ class Lesson {
   // All judges, put together.
   JudgeList list(std::span<const Judge> judges) const;
 
-  // What some judges say of other objects of the table: a row for each object, or for each of its
-  // views.
+  // What some judges say of other objects of the table: a row for each object, or for each of its views.
   FeatureMatrix margins(std::span<const Judge> judges, std::span<const std::uint32_t> objects) const;
 
  private:

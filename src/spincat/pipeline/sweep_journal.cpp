@@ -64,11 +64,7 @@ SweepJournal::SweepJournal(const std::filesystem::path& file, const Json& identi
     return;
   }
   file_.emplace(file);
-  const std::optional<std::string> text = file_->read(0, file_->size());
-  if (!text) {
-    throw InputError(file.string(), "cannot be read");
-  }
-  read(*text, identity);
+  read(file_->read(0, file_->size()).value_or(""), identity);
   if (whole_ == 0) {
     append(as_line(identity));
   }
@@ -106,7 +102,7 @@ void SweepJournal::read(const std::string& text, const Json& identity) {
     }
     whole_ = end + 1;
   }
-  if (whole_ == 0 && !text.empty() && text[0] != '{') {
+  if (whole_ == 0 && !as_line(identity).starts_with(text)) {
     throw InputError(file, "is no journal of a sweep");
   }
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -16,29 +17,32 @@
 namespace spincat {
 namespace {
 
-// The judges of a lesson, as they come, in their order.
+// The judges of the first lesson, as they come, in their order. Other ranks are at work before it is made here.
 class JudgeCollector {
  public:
-  JudgeCollector(const Lesson& lesson, std::size_t categories) : lesson_(lesson) {
-    if (lesson.folds()) {
-      list_ = lesson.unfilled_list(categories * (categories - 1) / 2);
-    }
-  }
+  JudgeCollector(Lessons& lessons, std::size_t categories)
+      : lessons_(lessons), pairs_(categories * (categories - 1) / 2) {}
 
   void add(const JudgesTask& task, std::string_view result) {
-    if (lesson_.folds()) {
-      put_folded(result, task.first, list_);
-    } else {
+    if (!lesson().folds()) {
       std::ranges::move(unpack_judges(result), std::back_inserter(judges_));
+      return;
     }
+    if (!list_) {
+      list_ = lesson().unfilled_list(pairs_);
+    }
+    put_folded(result, task.first, *list_);
   }
 
-  JudgeList take() { return lesson_.folds() ? std::move(list_) : lesson_.list(judges_); }
+  JudgeList take() { return list_ ? *std::move(list_) : lesson().list(judges_); }
 
  private:
-  const Lesson& lesson_;
-  JudgeList list_;             // where the lesson folds
-  std::vector<Judge> judges_;  // where it does not
+  const Lesson& lesson() { return lessons_.lesson(0); }
+
+  Lessons& lessons_;
+  std::size_t pairs_;
+  std::optional<JudgeList> list_;  // where the lesson folds
+  std::vector<Judge> judges_;      // where it does not
 };
 
 TaskFarm::Tick telling(const Progress& progress, const char* stage, std::size_t tasks) {
@@ -106,7 +110,7 @@ CalibratedJudges Teacher::do_lessons(std::span<const LessonPlan> lessons, const 
   const std::vector<JudgesTask> tasks = judges_tasks(table_, settings_.kernel, lessons);
   const auto made =
       std::make_shared<Lessons>(table_, *gram_, settings_, std::vector<LessonPlan>(lessons.begin(), lessons.end()));
-  JudgeCollector judges(made->lesson(0), table_.categories.size());
+  JudgeCollector judges(*made, table_.categories.size());
   FoldCounter folds(table_);
   Job job;
   job.kind = kJudgesTasks;

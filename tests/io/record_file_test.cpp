@@ -139,7 +139,8 @@ TEST(RecordFile, RefusesContentThatIsFarLargerInMemory) {
   EXPECT_THROW(test::record_bytes("model", 1, list), InputError);
   const std::string zeros = "\x9A\x00\x0F\x42\x40"s + std::string(1'000'000, '\0');
   EXPECT_EQ(error_of(record_of(zeros)), "is damaged: its content would take 48000112 bytes of memory");
-  EXPECT_EQ(unpack_record(test::record_bytes("model", 1, json(std::vector<int>(100'000, 1))), "model", 1).size(), 100'000U);
+  EXPECT_EQ(unpack_record(test::record_bytes("model", 1, json(std::vector<int>(100'000, 1))), "model", 1).size(),
+            100'000U);
 }
 
 TEST(RecordFile, RefusesLengthsThatCannotBe) {

@@ -126,8 +126,8 @@ class Losses : public Launching, public testing::WithParamInterface<Task> {
   std::mt19937 random_{std::random_device{}()};
 };
 
-// But for a rank that is lost while MPI itself starts: nothing is done yet, and the command says so. The exit code tells
-// little, as Open MPI's recovery makes it 0 in any case: what counts are the bytes, and that the run ends.
+// But for a rank that is lost while MPI itself starts: nothing is done yet, and the command says so. The exit code
+// tells little, as Open MPI's recovery makes it 0 in any case: what counts are the bytes, and that the run ends.
 TEST_P(Losses, UnderOpenMpiCostNothingButTime) {
   if (const std::string reason = reason_to_skip(kOpenMpi); !reason.empty()) {
     GTEST_SKIP() << reason;
@@ -168,10 +168,13 @@ TEST_P(Losses, UnderMpichTheSameCommandGoesOn) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Tasks, Losses,
-                         testing::Values(Task{"spin", "spin scan.off --image-width 32 --threads 1", ".npy"},
-                                         Task{"train", "train boxes --threads 1", ".spincat"}),
-                         [](const auto& task) { return task.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Tasks, Losses,
+    testing::Values(Task{"spin", "spin scan.off --image-width 32 --threads 1", ".npy"},
+                    Task{"train", "train boxes --threads 1", ".spincat"},
+                    Task{"images", "train boxes --divide images --copies 1 --threads 1", ".spincat"},
+                    Task{"dense", "train boxes --spin-points 4096 --copies 1 --threads 1", ".spincat"}),
+    [](const auto& task) { return task.param.name; });
 
 }  // namespace
 }  // namespace spincat::test

@@ -43,7 +43,7 @@ class Ranks {
       : wires_(std::make_shared<Wires>(count)), ranks_(wires_, 0), kept_(static_cast<std::size_t>(count)) {
     for (int r = 1; r < count; ++r) {
       const auto factory = [before_task, &kept = kept_[static_cast<std::size_t>(r)]](std::string_view kind,
-                                                                                   std::string_view context) {
+                                                                                     std::string_view context) {
         if (kind != "square") {
           throw RunError("not known");
         }

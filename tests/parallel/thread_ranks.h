@@ -14,7 +14,8 @@ namespace spincat::test {
 
 // The wires between the ranks.
 struct Wires {
-  explicit Wires(int ranks) : inbox(static_cast<std::size_t>(ranks)), mute(inbox.size(), false), cut(inbox.size(), false) {}
+  explicit Wires(int ranks)
+      : inbox(static_cast<std::size_t>(ranks)), mute(inbox.size(), false), cut(inbox.size(), false) {}
 
   std::mutex mutex;
   std::vector<std::deque<Message>> inbox;

@@ -146,7 +146,8 @@ TEST_F(Sweeps, ALineThatNoSweepWroteIsRefused) {
   const std::string good = read_file(journal);
   const std::string next = std::to_string(std::ranges::count(good, '\n') + 1);
   dir_.write("s.journal", good + std::string(100'001, '[') + "\n");
-  EXPECT_EQ(input_error([&] { swept(journal); }), journal.string() + ": line " + next + " is longer than any of a sweep");
+  EXPECT_EQ(input_error([&] { swept(journal); }),
+            journal.string() + ": line " + next + " is longer than any of a sweep");
   const std::string many = R"({"values":["1","2","3","4","5","6","7","8","9","10","11","12","13","14","15","16","17"],)"
                            R"("mean_class_rate":[1,1,1,1],"overall_rate":[1,1,1,1],"seconds":[1,1,1,1,1]})";
   dir_.write("s.journal", good + many + "\n");

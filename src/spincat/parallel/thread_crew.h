@@ -26,8 +26,8 @@ class ThreadCrew {
 
   void give(std::size_t task, std::string bytes);
   std::size_t tasks() const { return tasks_; }  // given and not yet taken
-  std::optional<TaskResult> take();  // a finished task, if there is one
-  void forget();                     // tasks that nobody has begun
+  std::optional<TaskResult> take();             // a finished task, if there is one
+  void forget();                                // tasks that nobody has begun
   // Waits until a task is finished, but no longer than this.
   void wait(std::chrono::microseconds longest);
 
@@ -42,7 +42,7 @@ class ThreadCrew {
 
   const Work work_;
   std::size_t tasks_ = 0;  // the owner's
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;       // guards what follows
   std::condition_variable given_changed_;
   std::condition_variable finished_changed_;
   std::deque<Given> given_;

@@ -8,9 +8,9 @@
 #include "spincat/dataset/splits.h"
 #include "spincat/parallel/task_farm.h"
 #include "spincat/pipeline/roc.h"
+#include "spincat/pipeline/sharing.h"
 #include "spincat/pipeline/stopwatch.h"
 #include "spincat/pipeline/task_kinds.h"
-#include "spincat/pipeline/calibration_folds.h"
 #include "spincat/pipeline/teacher.h"
 #include "spincat/pipeline/trial.h"
 
@@ -69,10 +69,10 @@ std::vector<Split> splits_of(const EvaluationData& data, const Settings& setting
 
 std::vector<Trial> run_trials(const EvaluationData& data, const std::vector<Split>& splits, const Settings& settings,
                               const EvaluateOptions& options, const Progress& progress) {
-  const bool confidence = options.measure_confidence || !options.strangers.empty();
+  const bool confidence = options.calibrates();
   OwnFarm own(options.threads);
   TaskFarm& farm = options.farm != nullptr ? *options.farm : own.farm();
-  const TeachingPlan plan{splits.size() * (confidence ? 1 + kCalibrationFolds : 1)};
+  const TeachingPlan plan = plan_of(splits.size(), confidence);
   Teacher teacher(data.table, settings.judge, farm, plan, progress);
   std::vector<Trial> trials;
   if (splits.size() == 1) {  // shared out by its judges
@@ -304,7 +304,7 @@ Evaluation judge_evaluation(const EvaluationData& data, const Settings& settings
   result.tested = named_objects(data, splits, trials);
   fill_rates(trials, options, result);
   result.views = rates_by_views(trials, data.table.tested_rows, result.protocol == Protocol::splits);
-  if (options.measure_confidence || !options.strangers.empty()) {
+  if (options.calibrates()) {
     result.confidence = measure_of(trials);
   }
   const double judging = watch.lap();

@@ -47,6 +47,7 @@ struct EvaluateOptions {
 
   // Throws InputError naming the option, its value and the allowed range.
   void validate() const;
+  bool calibrates() const { return measure_confidence || !strangers.empty(); }
 };
 
 // The rates over the splits of one seed.

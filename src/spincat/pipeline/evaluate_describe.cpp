@@ -1,6 +1,8 @@
 // The first half of an evaluation: all objects to their features.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "spincat/dataset/splits.h"
@@ -40,14 +42,23 @@ void check_form(const Settings& settings, const EvaluateOptions& options) {
   }
 }
 
+// How many splits there will be, where all objects can be read.
+std::size_t splits_in_sight(const EvaluateOptions& options, std::size_t objects) {
+  if (options.leave_one_out) {
+    return objects;
+  }
+  return static_cast<std::size_t>(options.splits) * std::max<std::size_t>(1, options.split_seeds.size());
+}
+
 // What both kinds have in common: the objects to learn from, and the strangers.
-EvaluationData describe_known(const Dataset& dataset, const Settings& settings, const EvaluateOptions& options,
-                              const Progress& progress) {
+EvaluationData describe_known(const Dataset& dataset, std::size_t splits, const Settings& settings,
+                              const EvaluateOptions& options, const Progress& progress) {
   EvaluationData data;
   data.dataset = dataset.name;
   OwnFarm own(options.threads);
   TaskFarm& farm = options.farm != nullptr ? *options.farm : own.farm();
-  data.table = describe_dataset(dataset, settings, options.strict, farm, options.division, {}, progress);
+  data.table = describe_dataset(dataset, settings, options.strict, farm, options.division,
+                                plan_of(splits, options.calibrates()), progress);
   std::vector<DatasetObject> strangers;
   for (const std::filesystem::path& file : options.strangers) {
     strangers.push_back({file, 0, ""});
@@ -76,7 +87,8 @@ EvaluationData describe_for_evaluation(const Dataset& dataset, const Settings& s
   Stopwatch watch;
   std::vector<LeftOutCategory> left_out;
   const Dataset part = with_enough_objects(dataset, options.fewest_objects, left_out);
-  EvaluationData data = describe_known(part, settings, options, progress);
+  EvaluationData data =
+      describe_known(part, splits_in_sight(options, part.objects.size()), settings, options, progress);
   data.left_out = std::move(left_out);
   if (options.test.form != TestForm::as_is) {
     data.tested = described(data.table.objects, data, settings, options.test, options, progress);
@@ -96,7 +108,7 @@ EvaluationData describe_across(const Dataset& train, const Dataset& test, const 
   if (options.strict && !tested.skipped.empty()) {
     throw InputError(tested.skipped.front().file.string(), tested.skipped.front().reason);
   }
-  EvaluationData data = describe_known(learned, settings, options, progress);
+  EvaluationData data = describe_known(learned, 1, settings, options, progress);
   data.test_dataset = tested.name;
   data.across = true;
   data.left_out = std::move(left_out);

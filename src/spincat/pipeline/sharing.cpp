@@ -4,6 +4,10 @@
 
 namespace spincat {
 
+TeachingPlan plan_of(std::size_t trainings, bool calibrated) {
+  return {trainings * static_cast<std::size_t>(calibrated ? 1 + kCalibrationFolds : 1)};
+}
+
 // Rough: a core does 10^10 products a second, and 10^9 bytes a second leave this process.
 bool pays_to_share(const TableSize& table, const TeachingPlan& plan, const TaskFarm& farm) {
   if (farm.ranks() < 2) {

@@ -12,6 +12,9 @@ struct TeachingPlan {
   std::size_t lessons = 1;
 };
 
+// So many trainings, each with those of the folds of its calibration or without.
+TeachingPlan plan_of(std::size_t trainings, bool calibrated);
+
 struct TableSize {
   std::size_t objects = 0;
   std::size_t rows = 0;

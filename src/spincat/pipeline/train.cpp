@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "spincat/parallel/task_farm.h"
-#include "spincat/pipeline/calibration_folds.h"
 #include "spincat/pipeline/feature_table.h"
+#include "spincat/pipeline/sharing.h"
 #include "spincat/pipeline/stopwatch.h"
 #include "spincat/pipeline/table_familiarity.h"
 #include "spincat/pipeline/teacher.h"
@@ -17,7 +17,7 @@ TrainResult train(const Dataset& dataset, const Settings& settings, const TrainO
   // Describe every object and its stretched copies once.
   OwnFarm own(options.threads);
   TaskFarm& farm = options.farm != nullptr ? *options.farm : own.farm();
-  const TeachingPlan plan{1 + kCalibrationFolds};  // for the model, and for the folds of its calibration
+  const TeachingPlan plan = plan_of(1, true);
   const FeatureTable table =
       describe_dataset(dataset, settings, options.strict, farm, options.division, plan, progress);
   std::vector<std::uint32_t> objects(table.objects.size());

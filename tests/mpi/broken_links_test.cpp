@@ -24,11 +24,12 @@ class BrokenLinks : public Launching, public testing::WithParamInterface<Mpi> {
                           "train boxes --threads 1 -o ranks.spincat",
                           mpi.launcher, mpi.recovery, SPINCAT_FAILING_MPI, mpi.name, failure, SPINCAT_COMMAND));
     EXPECT_TRUE(fs::exists(dir_.path() / failure)) << failure << " did not come";
-    EXPECT_LT(result.code, 124) << failure << " hangs\n" << result.err;
+    EXPECT_TRUE(result.code != 124 && result.code != 137) << failure << " hangs\n" << result.err;
     return result;
   }
 
-  // The result is complete before a rank is given up, whatever the launcher then makes of it.
+  // The result is complete before a rank is given up, whatever the launcher then makes of it: Open MPI's may crash at its
+  // own end.
   void expect_right_after(const std::string& failure) {
     const RunResult result = train_with(failure);
     EXPECT_TRUE(bytes("ranks.spincat") == bytes("alone.spincat")) << failure << "\n" << result.err;

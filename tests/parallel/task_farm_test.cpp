@@ -258,6 +258,13 @@ TEST(TaskFarm, ARankThatIsCutOffIsDoneWithoutAndLeaves) {
   EXPECT_FALSE(farm.report().ranks[2].lost);
 }
 
+TEST(FarmReport, ARankThatNeverSaidWhereItIsIsOnNoHost) {
+  FarmReport report;
+  report.ranks = {{"here", 2, 1.0, false, {}}, {"", 0, 0.0, true, {}}};
+  report.seconds = 1.0;
+  EXPECT_EQ(report.text(), "2 ranks on 1 host, 2 threads: busy 50% lost; nothing handed out again");
+}
+
 TEST(TaskFarm, WhoSpeaksAgainTakesPartAgain) {
   const Deadline deadline("0.05");
   std::atomic<int> begun = 0;

@@ -41,7 +41,9 @@ std::string FarmReport::text() const {
   std::set<std::string> hosts;
   std::size_t threads = 0;
   for (const Rank& rank : ranks) {
-    hosts.insert(rank.host);
+    if (!rank.host.empty()) {  // a lost rank may never have said where it is
+      hosts.insert(rank.host);
+    }
     threads += static_cast<std::size_t>(rank.threads);
   }
   std::string line = fmt::format("{} on {}, {}: {}", counted(ranks.size(), "rank"), counted(hosts.size(), "host"),

@@ -125,14 +125,13 @@ int run_on_ranks(int argc, char** argv, const Launch& launch) {
   watch.reset();
   int code = 0;
   if (ranks->rank() == 0) {
-    TaskFarm farm(*ranks);
+    TaskFarm farm(*ranks);  // its end waits for the others as long as they are heard
     code = report_errors([&] { return run(argc, argv, farm); });
-    watch = watch_end(launch, host, code);
   } else {
     const auto threads = [&](int requested) { return thread_count(requested, ranks->ranks_on_host()); };
     serve(*ranks, pipeline_work(), threads, stop_if_interrupted);
-    watch = watch_end(launch, host, code);
   }
+  watch = watch_end(launch, host, {code, ranks->ranks_on_host() == ranks->size()});
   ranks.reset();  // ends MPI
   watch.reset();
   leave_last(launch, *host);

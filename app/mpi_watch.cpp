@@ -24,9 +24,11 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kBetweenLooks(20);  // a rank that goes before it was seen is missed only much later
+constexpr std::chrono::milliseconds kBetweenFirstLooks(20);  // a rank that goes unseen is missed only much later
+constexpr std::chrono::milliseconds kBetweenLooks(100);
+constexpr std::chrono::seconds kFirst(1);
 constexpr std::chrono::milliseconds kBetweenLastLooks(2);
-constexpr std::chrono::milliseconds kStall(500);  // when we did not look for so long, what we saw before means nothing
+constexpr std::chrono::milliseconds kStall(500);  // when we did not look for so long, we were stopped ourselves
 
 fs::path program_of(std::int64_t process) {
   std::error_code error;
@@ -57,7 +59,7 @@ class HostRanks {
   void look() {
     const auto now = Clock::now();
     if (now - last_look_ > kStall) {
-      begin_again();
+      forget(now - last_look_);
     }
     last_look_ = now;
     for (const std::int64_t rank : ranks_beside_us()) {
@@ -80,15 +82,15 @@ class HostRanks {
   void kill_stopped() const {
     for (const auto& [rank, seen] : seen_) {
       if (since(seen.last_running) > 0.25) {
-        ::kill(static_cast<pid_t>(rank), SIGKILL);
+        kill_if_ours(rank);
       }
     }
   }
 
   void kill_others() const {
     for (const auto& [rank, seen] : seen_) {
-      if (rank != getpid() && is_there(rank)) {
-        ::kill(static_cast<pid_t>(rank), SIGKILL);
+      if (rank != getpid()) {
+        kill_if_ours(rank);
       }
     }
   }
@@ -106,6 +108,22 @@ class HostRanks {
     Clock::time_point last_there;
     Clock::time_point last_running;
   };
+
+  // The number of a process that has gone may be another's by now.
+  static void kill_if_ours(std::int64_t rank) {
+    if (program_of(rank) == program_of(getpid())) {
+      ::kill(static_cast<pid_t>(rank), SIGKILL);
+    }
+  }
+
+  // As if this time had not been.
+  void forget(Clock::duration time) {
+    start_ += time;
+    for (auto& [rank, seen] : seen_) {
+      seen.last_there += time;
+      seen.last_running += time;
+    }
+  }
 
   static double since(Clock::time_point then) { return (Clock::now() - then) / silence_deadline(); }
 
@@ -149,9 +167,11 @@ MpiWatch::~MpiWatch() {
 
 void MpiWatch::look_on() {
   std::unique_lock lock(mutex_);
+  const auto start = Clock::now();
   do {
     look_();
-  } while (!over_changed_.wait_for(lock, kBetweenLooks, [&] { return over_; }));
+  } while (!over_changed_.wait_for(lock, Clock::now() - start < kFirst ? kBetweenFirstLooks : kBetweenLooks,
+                                   [&] { return over_; }));
 }
 
 std::unique_ptr<MpiWatch> watch_start(const Launch& launch, std::shared_ptr<HostRanks> host) {
@@ -171,20 +191,20 @@ std::unique_ptr<MpiWatch> watch_start(const Launch& launch, std::shared_ptr<Host
   });
 }
 
-std::unique_ptr<MpiWatch> watch_end(const Launch& launch, std::shared_ptr<HostRanks> host, int exit_code) {
+std::unique_ptr<MpiWatch> watch_end(const Launch& launch, std::shared_ptr<HostRanks> host, const MpiEnd& end) {
   if (launch.processes < 2) {
     return nullptr;
   }
   host->begin_again();
-  return std::make_unique<MpiWatch>([host = std::move(host), exit_code, is_first = launch.number == 0] {
+  return std::make_unique<MpiWatch>([host = std::move(host), end, is_first = launch.number == 0] {
     host->look();
     host->kill_stopped();
-    const bool in_vain = host->watched_for() > 15.0;
+    const bool in_vain = host->watched_for() > 15.0 && (is_first || !end.one_host);
     if (in_vain && is_first) {
       host->kill_others();  // they no longer hear us
     }
     if (in_vain || host->gone_for() > 2.0) {
-      std::_Exit(exit_code);
+      std::_Exit(end.exit_code);
     }
   });
 }

@@ -11,7 +11,7 @@
 
 namespace spincat::app {
 
-// Has a thread look some fifty times a second, until this object goes.
+// Has a thread look fifty times a second at first, ten times later, until this object goes.
 class MpiWatch {
  public:
   explicit MpiWatch(std::function<void()> look);
@@ -38,10 +38,16 @@ std::shared_ptr<HostRanks> ranks_of_host();
 // an earlier run finished.
 std::unique_ptr<MpiWatch> watch_start(const Launch& launch, std::shared_ptr<HostRanks> host);
 
+struct MpiEnd {
+  int exit_code = 0;  // of this process
+  bool one_host = false;
+};
+
 // While MPI ends: kills ranks of this host that stay stopped, and ends this process with its exit code when a rank
-// beside it has long gone, or after fifteen deadlines; rank 0 then kills those that are left. Whatever the command had
-// to write is complete by then.
-std::unique_ptr<MpiWatch> watch_end(const Launch& launch, std::shared_ptr<HostRanks> host, int exit_code);
+// beside it has long gone. After fifteen deadlines rank 0 kills those of its host that are left, and ends; so do ranks
+// on several hosts, but not those that have rank 0 beside them: it may wait for another's last task. Whatever the
+// command had to write is complete by then.
+std::unique_ptr<MpiWatch> watch_end(const Launch& launch, std::shared_ptr<HostRanks> host, const MpiEnd& end);
 
 // For rank 0, when MPI has ended: waits for the other ranks of this host to go, at most two deadlines, and kills those
 // that stay stopped. Nobody else would, and the launcher would wait for them for ever.

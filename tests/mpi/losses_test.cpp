@@ -138,16 +138,16 @@ TEST_P(Losses, UnderOpenMpiCostNothingButTime) {
       start_and_hit(kOpenMpi, 3, signal);
       int code = wait_for_code();
       if (failed_to_start()) {
-        ++failed;
+        ASSERT_LT(++failed, rounds() + 10) << "no run starts";
         EXPECT_FALSE(fs::exists(dir_.path() / ranks_)) << bytes(".err");
         start(kOpenMpi, 3);
         code = wait_for_code();
+        --round;  // does not count
       }
       EXPECT_EQ(code, 0) << "signal " << signal << ", round " << round << "\n" << bytes(".err");
       expect_right();
     }
   }
-  EXPECT_LE(failed, 1 + rounds()) << "most runs did not start";
 }
 
 // MPICH's launcher ends the whole run; the same command goes on from the journal.

@@ -80,7 +80,7 @@ void LockedFile::cut(std::uint64_t size) {
 
 void LockedFile::flush() {
   if (!flush_to_disk(descriptor_)) fail("cannot write");
-  if (!name_is_on_disk_ && !flush_names(std::filesystem::absolute(name_).parent_path())) fail("cannot write");
+  if (!name_is_on_disk_ && !flush_names(name_.has_parent_path() ? name_.parent_path() : ".")) fail("cannot write");
   name_is_on_disk_ = true;
 }
 

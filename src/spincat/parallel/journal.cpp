@@ -49,7 +49,11 @@ Journal::Journal(std::filesystem::path file, const RunIdentity& identity) : file
 void Journal::begin(const RunIdentity& identity) {
   const std::string head = head_of(identity);
   const std::uint64_t size = file_.size();
-  const std::string there = file_.read(0, std::min<std::uint64_t>(size, head.size())).value_or("");
+  const std::optional<std::string> begun = file_.read(0, std::min<std::uint64_t>(size, head.size()));
+  if (!begun) {
+    throw RunError(file_.name().string(), "cannot be read: it has become shorter");
+  }
+  const std::string& there = *begun;
   if (there == head) {
     read_records(head.size(), size);
     return;

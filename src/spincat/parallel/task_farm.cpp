@@ -418,7 +418,10 @@ void TaskFarm::dismiss() {
   for (int r = 1; r < ranks_.size(); ++r) {
     ranks_.send(r, farm::kQuit, shared({}));
   }
-  const auto start = Clock::now();
+  for (Rank& rank : others_) {
+    rank.last_heard = Clock::now();
+  }
+  auto last_look = Clock::now();
   Pause pause;
   const auto here = [](const Rank& rank) { return !rank.left && !rank.given_up; };
   while (std::ranges::any_of(others_, here)) {
@@ -429,11 +432,16 @@ void TaskFarm::dismiss() {
       rank.heard();
       rank.left = rank.left || message->tag == farm::kBye;
     }
+    const auto now = Clock::now();
+    const bool stalled = now - last_look > kStall;
+    last_look = now;
     for (std::size_t r = 0; r < others_.size(); ++r) {
       Rank& rank = others_[r];
       const int number = static_cast<int>(r) + 1;
-      const auto silent = Clock::now() - std::max(start, rank.last_heard);
-      if (here(rank) && rank.should_be_given_up(silent, ranks_.is_cut_off(number))) {
+      if (stalled) {
+        rank.last_heard = now;
+      }
+      if (here(rank) && rank.should_be_given_up(now - rank.last_heard, ranks_.is_cut_off(number))) {
         rank.given_up = true;
         ranks_.give_up(number);
       }

@@ -31,11 +31,11 @@ ThreadCrew::~ThreadCrew() {
 }
 
 void ThreadCrew::give(std::size_t task, std::string bytes) {
-  ++tasks_;
   {
     const std::lock_guard lock(mutex_);
     given_.push_back({task, std::move(bytes)});
   }
+  ++tasks_;
   given_changed_.notify_one();
 }
 

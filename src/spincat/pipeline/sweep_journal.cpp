@@ -64,7 +64,11 @@ SweepJournal::SweepJournal(const std::filesystem::path& file, const Json& identi
     return;
   }
   file_.emplace(file);
-  read(file_->read(0, file_->size()).value_or(""), identity);
+  const std::optional<std::string> text = file_->read(0, file_->size());
+  if (!text) {
+    throw RunError(file.string(), "cannot be read: it has become shorter");
+  }
+  read(*text, identity);
   if (whole_ == 0) {
     append(as_line(identity));
   }

@@ -12,6 +12,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <deque>
+#include <iterator>
+#include <list>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -40,9 +42,10 @@ struct Piece {
   std::shared_ptr<const Outgoing> message;  // keeps the bytes
 };
 
+// Lists, as MPI has the addresses of what they hold.
 struct OutBox {
   std::deque<std::shared_ptr<Outgoing>> waiting;
-  std::deque<Piece> under_way;
+  std::list<Piece> under_way;
 };
 
 struct IncomingPiece {
@@ -52,7 +55,7 @@ struct IncomingPiece {
 };
 
 struct InBox {
-  std::deque<IncomingPiece> under_way;
+  std::list<IncomingPiece> under_way;
   bool in_message = false;
   std::uint64_t length = 0;  // of the message that is being put together
   Message message;
@@ -66,6 +69,22 @@ Transfer state_of(MPI_Request& request) {
     return Transfer::failed;
   }
   return done != 0 ? Transfer::done : Transfer::under_way;
+}
+
+// Of a rank that is cut off: forgets what MPI is done with, and keeps the memory of what failed, which MPI may still
+// use.
+template <class Piece>
+void let_go(std::list<Piece>& pieces, std::list<Piece>& kept) {
+  for (auto piece = pieces.begin(); piece != pieces.end();) {
+    const Transfer state = state_of(piece->request);
+    const auto next = std::next(piece);
+    if (state == Transfer::done) {
+      pieces.erase(piece);
+    } else if (state == Transfer::failed) {
+      kept.splice(kept.end(), pieces, piece);
+    }
+    piece = next;
+  }
 }
 
 class MpiCommunicator final : public Communicator {
@@ -163,15 +182,19 @@ class MpiCommunicator final : public Communicator {
 
   void move_on_sending(int to) {
     OutBox& box = out_[static_cast<std::size_t>(to)];
-    while (!box.under_way.empty()) {
+    while (!is_cut_off(to) && !box.under_way.empty()) {
       const Transfer state = state_of(box.under_way.front().request);
       if (state == Transfer::under_way) {
         break;
       }
       if (state == Transfer::failed) {
         give_up(to);
+      } else {
+        box.under_way.pop_front();
       }
-      box.under_way.pop_front();
+    }
+    if (is_cut_off(to)) {
+      let_go(box.under_way, failed_out_);
     }
     while (!box.waiting.empty() && box.under_way.size() < kPiecesAtOnce) {
       start_piece(to, box);
@@ -234,18 +257,20 @@ class MpiCommunicator final : public Communicator {
   // Puts together what has come from a rank, until a message is whole.
   std::optional<Message> assemble(int from) {
     InBox& box = in_[static_cast<std::size_t>(from)];
-    while (!box.under_way.empty()) {
+    while (!is_cut_off(from) && !box.under_way.empty()) {
       const Transfer state = state_of(box.under_way.front().request);
       if (state == Transfer::under_way) {
         break;
       }
+      if (state == Transfer::failed) {
+        give_up(from);
+        break;
+      }
       const IncomingPiece piece = std::move(box.under_way.front());
       box.under_way.pop_front();
-      if (state == Transfer::failed || (!box.in_message && piece.bytes.size() < kHead)) {
+      if (!box.in_message && piece.bytes.size() < kHead) {
         give_up(from);
-      }
-      if (is_cut_off(from)) {
-        continue;
+        break;
       }
       if (!box.in_message) {
         std::memcpy(&box.length, piece.bytes.data(), kHead);
@@ -261,6 +286,9 @@ class MpiCommunicator final : public Communicator {
         return std::move(box.message);
       }
     }
+    if (is_cut_off(from)) {
+      let_go(box.under_way, failed_in_);
+    }
     return std::nullopt;
   }
 
@@ -270,6 +298,8 @@ class MpiCommunicator final : public Communicator {
   int next_source_ = 0;
   std::vector<OutBox> out_;
   std::vector<InBox> in_;
+  std::list<Piece> failed_out_;
+  std::list<IncomingPiece> failed_in_;
   std::vector<bool> cut_off_;
 };
 

@@ -117,6 +117,14 @@ int run(int argc, char** argv, TaskFarm& farm) {
   return 2;
 }
 
+// MPI's end would wait for the rank that has gone.
+[[noreturn]] void leave_abandoned(const Launch& launch) {
+  if (launch.number == 1) {  // one voice is enough
+    message("rank 0 or the launcher has gone; the same command may be given again");
+  }
+  std::_Exit(1);
+}
+
 // Rank 0 runs the command; the others work for it and say nothing.
 int run_on_ranks(int argc, char** argv, const Launch& launch) {
   const std::shared_ptr<HostRanks> host = ranks_of_host();
@@ -129,7 +137,9 @@ int run_on_ranks(int argc, char** argv, const Launch& launch) {
     code = report_errors([&] { return run(argc, argv, farm); });
   } else {
     const auto threads = [&](int requested) { return thread_count(requested, ranks->ranks_on_host()); };
-    serve(*ranks, pipeline_work(), threads, stop_if_interrupted);
+    if (serve(*ranks, pipeline_work(), threads, stop_if_interrupted) == ServiceEnd::abandoned) {
+      leave_abandoned(launch);
+    }
   }
   watch = watch_end(launch, host, {code, ranks->ranks_on_host() == ranks->size()});
   ranks.reset();  // ends MPI

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs the command on three hosts: network namespaces joined by a bridge, each with a host name and an sshd of its own.
-# Then cuts one of them off in the middle of a run.
+# Then cuts one of them off in the middle of a run, and kills the first process in another.
 #
 #   tests/mpi/hosts.sh PATH-OF-SPINCAT openmpi|mpich
 #
@@ -71,7 +71,7 @@ launcher() {  # the hosts, comma-separated
     echo "mpirun.mpich -launcher ssh -launcher-exec $work/ssh -hosts $1"
   fi
 }
-export SPINCAT_DEADLINE=1
+export SPINCAT_DEADLINE=20  # a rank that hangs at its end must not end itself in time
 
 # A surface that takes some seconds.
 awk 'BEGIN{n=70;
@@ -87,7 +87,7 @@ done
 arguments=(spin "$work/scan.off" --image-width 40 --threads 1)
 "$spincat" "${arguments[@]}" -o "$work/alone.npy" >/dev/null
 
-for hosts in h0,h1 h0,h1,h2; do
+for hosts in h0,h1 h0,h1 h0,h1 h0,h1,h2 h0,h1,h2; do
   count="$(echo "$hosts" | tr ',' '\n' | wc -l)"
   on_h0 timeout -k 1 60 $(launcher "$hosts") -n "$count" "$spincat" "${arguments[@]}" -o "$work/ranks.npy" \
     >"$work/run.out" 2>"$work/run.err" </dev/null || fail "on $hosts"
@@ -97,6 +97,7 @@ for hosts in h0,h1 h0,h1,h2; do
 done
 
 # Cut off h2 once some tasks are done. The launcher may wait for ever; the result is the proof.
+export SPINCAT_DEADLINE=1
 on_h0 timeout -k 1 60 $(launcher h0,h1,h2) -n 3 "$spincat" "${arguments[@]}" -o "$work/ranks.npy" \
   >"$work/cut.out" 2>"$work/cut.err" </dev/null &
 run=$!
@@ -118,4 +119,29 @@ if [ ! -e "$work/ranks.npy" ]; then
     >"$work/again.out" 2>"$work/again.err" </dev/null || fail "the resumed run"
 fi
 cmp "$work/alone.npy" "$work/ranks.npy" || fail "other bytes after a cut link"
-echo "three hosts and a cut link: the same bytes"
+
+# Kill rank 0 once some tasks are done: the rank on the other host leaves when it has heard nothing for long, so that
+# the launcher ends.
+rm "$work/ranks.npy"
+export SPINCAT_DEADLINE=0.1
+on_h0 timeout -k 1 60 $(launcher h0,h1) -n 2 "$spincat" "${arguments[@]}" -o "$work/ranks.npy" \
+  >"$work/kill.out" 2>"$work/kill.err" </dev/null &
+run=$!
+until [ -s "$work/ranks.npy.journal" ] || [ -e "$work/ranks.npy" ]; do
+  kill -0 "$run" 2>/dev/null || break
+  sleep 0.02
+done
+for process in $(ip netns pids "$id-h0"); do
+  if tr '\0' '\n' <"/proc/$process/environ" 2>/dev/null | grep -qE '^(PMI|OMPI_COMM_WORLD)_RANK=0$'; then
+    kill -9 "$process" 2>/dev/null || true
+  fi
+done
+killed=$SECONDS
+wait "$run" || true
+[ $((SECONDS - killed)) -lt 55 ] || fail "a rank stays when rank 0 has gone"
+if [ ! -e "$work/ranks.npy" ]; then
+  on_h0 timeout -k 1 60 $(launcher h0,h1) -n 2 "$spincat" "${arguments[@]}" -o "$work/ranks.npy" \
+    >"$work/again.out" 2>"$work/again.err" </dev/null || fail "the run after rank 0 was lost"
+fi
+cmp "$work/alone.npy" "$work/ranks.npy" || fail "other bytes after rank 0 was lost"
+echo "three hosts, a cut link and a lost rank 0: the same bytes"

@@ -46,8 +46,8 @@ class Losses : public Launching, public testing::WithParamInterface<Task> {
     ASSERT_EQ(std::system(line.c_str()), 0);
   }
 
-  // Process numbers of our ranks but the first.
-  std::vector<pid_t> workers() const {
+  // Process numbers of our ranks: of the first, or of all others.
+  std::vector<pid_t> processes(bool of_first) const {
     std::vector<pid_t> found;
     for (const auto& entry : fs::directory_iterator("/proc")) {
       const std::string name = entry.path().filename();
@@ -60,7 +60,8 @@ class Losses : public Launching, public testing::WithParamInterface<Task> {
       const std::string environment = contents(entry.path() / "environ");
       const auto has = [&](const char* variable) { return environment.find(variable) != std::string::npos; };
       if (folder == fs::canonical(dir_.path()) && program == fs::canonical(SPINCAT_COMMAND) &&
-          (has("PMI_RANK=") || has("OMPI_COMM_WORLD_RANK=")) && !has("PMI_RANK=0") && !has("OMPI_COMM_WORLD_RANK=0")) {
+          (has("PMI_RANK=") || has("OMPI_COMM_WORLD_RANK=")) &&
+          (has("PMI_RANK=0") || has("OMPI_COMM_WORLD_RANK=0")) == of_first) {
         found.push_back(std::stoi(name));
       }
     }
@@ -73,7 +74,7 @@ class Losses : public Launching, public testing::WithParamInterface<Task> {
     std::vector<pid_t> found;
     for (int i = 0; i < 2'000 && found.size() < 2 && !fs::exists(dir_.path() / "code"); ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
-      found = workers();
+      found = processes(false);
     }
     std::uniform_int_distribution<std::int64_t> moment(kEarliest.count(), latest.count());
     std::this_thread::sleep_for(std::chrono::milliseconds(moment(random_)));
@@ -126,6 +127,8 @@ class Losses : public Launching, public testing::WithParamInterface<Task> {
   std::mt19937 random_{std::random_device{}()};
 };
 
+class LossOfTheFirst : public Losses {};
+
 // But for a rank that is lost while MPI itself starts: nothing is done yet, and the command says so. The exit code
 // tells little, as Open MPI's recovery makes it 0 in any case: what counts are the bytes, and that the run ends.
 TEST_P(Losses, UnderOpenMpiCostNothingButTime) {
@@ -150,6 +153,34 @@ TEST_P(Losses, UnderOpenMpiCostNothingButTime) {
   }
 }
 
+// Nobody goes on without it, nor stays: the same command goes on from the journal.
+TEST_P(LossOfTheFirst, EndsTheRun) {
+  for (const Mpi& mpi : {kOpenMpi, kMpich}) {
+    if (const std::string reason = reason_to_skip(mpi); !reason.empty()) {
+      GTEST_SKIP() << reason;
+    }
+    start(mpi, 3);
+    std::vector<pid_t> first;
+    while (first.empty() && !fs::exists(dir_.path() / "code")) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      // Not before it has something to lose.
+      first = fs::exists(dir_.path() / (ranks_ + ".journal")) ? processes(true) : std::vector<pid_t>();
+    }
+    if (!first.empty() && kill(first.front(), SIGKILL) == 0) {
+      EXPECT_NE(wait_for_code(), 124) << mpi << " does not end\n" << bytes(".err");
+      for (int i = 0; i < 500 && !processes(false).empty(); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      }
+      EXPECT_TRUE(processes(false).empty()) << mpi;
+      if (!fs::exists(dir_.path() / ranks_)) {
+        start(mpi, 3);
+      }
+    }
+    EXPECT_EQ(wait_for_code(), 0) << mpi << "\n" << bytes(".err");
+    expect_right();
+  }
+}
+
 // MPICH's launcher ends the whole run; the same command goes on from the journal.
 TEST_P(Losses, UnderMpichTheSameCommandGoesOn) {
   if (const std::string reason = reason_to_skip(kMpich); !reason.empty()) {
@@ -168,13 +199,16 @@ TEST_P(Losses, UnderMpichTheSameCommandGoesOn) {
   }
 }
 
+const Task kSpin{"spin", "spin scan.off --image-width 32 --threads 1", ".npy"};
+const Task kTrain{"train", "train boxes --threads 1", ".spincat"};
+const auto kName = [](const auto& task) { return task.param.name; };
+
+INSTANTIATE_TEST_SUITE_P(Tasks, LossOfTheFirst, testing::Values(kSpin, kTrain), kName);
 INSTANTIATE_TEST_SUITE_P(
     Tasks, Losses,
-    testing::Values(Task{"spin", "spin scan.off --image-width 32 --threads 1", ".npy"},
-                    Task{"train", "train boxes --threads 1", ".spincat"},
-                    Task{"images", "train boxes --divide images --copies 1 --threads 1", ".spincat"},
+    testing::Values(kSpin, kTrain, Task{"images", "train boxes --divide images --copies 1 --threads 1", ".spincat"},
                     Task{"dense", "train boxes --spin-points 4096 --copies 1 --threads 1", ".spincat"}),
-    [](const auto& task) { return task.param.name; });
+    kName);
 
 }  // namespace
 }  // namespace spincat::test

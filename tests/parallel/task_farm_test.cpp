@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <functional>
 #include <map>
+#include <mutex>
 #include <new>
 #include <thread>
 #include <vector>
@@ -58,15 +59,21 @@ class Ranks {
       };
       servers_.emplace_back([this, r, factory, threads_each] {
         ThreadCommunicator ranks(wires_, r);
-        serve(
+        const ServiceEnd end = serve(
             ranks, factory, [&](int) { return threads_each; }, [] {});
+        const std::lock_guard lock(ends_mutex_);
+        ends_[r] = end;
       });
     }
   }
 
-  ~Ranks() {
+  ~Ranks() { join(); }
+
+  void join() {
     for (std::thread& server : servers_) {
-      server.join();
+      if (server.joinable()) {
+        server.join();
+      }
     }
   }
 
@@ -74,15 +81,22 @@ class Ranks {
   // What a rank was to keep. Wait for the end of the farm first.
   const std::map<std::size_t, std::string>& kept(int rank) {
     servers_[static_cast<std::size_t>(rank) - 1].join();
-    servers_[static_cast<std::size_t>(rank) - 1] = std::thread([] {});
     return kept_[static_cast<std::size_t>(rank)];
   }
   Wires& wires() { return *wires_; }
+
+  // How those that have left did so.
+  std::map<int, ServiceEnd> ends() {
+    const std::lock_guard lock(ends_mutex_);
+    return ends_;
+  }
 
  private:
   std::shared_ptr<Wires> wires_;
   ThreadCommunicator ranks_;
   std::vector<std::map<std::size_t, std::string>> kept_;
+  std::mutex ends_mutex_;
+  std::map<int, ServiceEnd> ends_;
   std::vector<std::thread> servers_;
 };
 
@@ -256,6 +270,52 @@ TEST(TaskFarm, ARankThatIsCutOffIsDoneWithoutAndLeaves) {
   expect_squares(outcome, 200);
   EXPECT_TRUE(farm.report().ranks[1].lost);
   EXPECT_FALSE(farm.report().ranks[2].lost);
+  EXPECT_EQ(others.ends(), (std::map{std::pair{1, ServiceEnd::cut_off}}));
+}
+
+TEST(TaskFarm, NoRankLeavesBeforeAllAreDone) {
+  std::atomic<int> begun = 0;
+  std::atomic<bool> may_end = false;
+  std::thread waits;
+  Ranks others(3, 1, [&] {
+    if (++begun == 1) {  // one rank has a task that nobody waits for any more
+      while (!may_end) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+    }
+  });
+  Outcome outcome;
+  {
+    TaskFarm farm(others.communicator());
+    const std::vector<int> numbers = numbers_up_to(40);
+    Job job = squares(numbers, outcome);
+    job.work = [&](std::string_view task) {
+      while (begun < 1) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+      return square("=", task);
+    };
+    farm.run(job);
+    waits = std::thread([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));  // the other rank has been dismissed by now
+      EXPECT_TRUE(others.ends().empty());
+      may_end = true;
+    });
+  }
+  waits.join();
+  others.join();
+  EXPECT_EQ(others.ends(), (std::map{std::pair{1, ServiceEnd::dismissed}, std::pair{2, ServiceEnd::dismissed}}));
+}
+
+TEST(TaskServer, LeavesWhenRank0SaysNothingMore) {
+  const Deadline deadline("0.02");  // three seconds of patience
+  Ranks others(2);
+  const TaskFarm farm(others.communicator());
+  std::this_thread::sleep_for(std::chrono::seconds(4));
+  EXPECT_TRUE(others.ends().empty());  // it hears rank 0, which does nothing
+  others.wires().silence(0);
+  others.join();
+  EXPECT_EQ(others.ends(), (std::map{std::pair{1, ServiceEnd::abandoned}}));
 }
 
 TEST(FarmReport, ARankThatNeverSaidWhereItIsIsOnNoHost) {

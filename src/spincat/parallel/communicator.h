@@ -17,7 +17,7 @@ struct Message {
 };
 
 // The processes that run together. There are no collective operations and nothing blocks: a rank that was lost can
-// never hold up another. Used by one thread of a process at a time. Header only, so that an MPI of any make can be
+// never hold up another. May be used by several threads. Header only, so that an MPI of any make can be
 // loaded as a plug-in (mpi_plugin.h).
 class Communicator {
  public:
@@ -34,6 +34,9 @@ class Communicator {
 
   // The next message that has arrived completely, if any. Also moves on whatever is on its way.
   virtual std::optional<Message> receive() = 0;
+
+  // Moves on what is on its way to a rank; whether nothing is left of it.
+  virtual bool has_sent(int to) = 0;
 
   // How many messages are on their way, to or from this rank, as far as this rank knows.
   virtual std::size_t under_way() const = 0;
@@ -54,6 +57,7 @@ class SerialCommunicator final : public Communicator {
   std::string implementation() const override { return {}; }
   void send(int, int, SharedBytes) override {}
   std::optional<Message> receive() override { return std::nullopt; }
+  bool has_sent(int) override { return true; }
   std::size_t under_way() const override { return 0; }
   void give_up(int) override {}
   bool is_cut_off(int) const override { return false; }

@@ -5,6 +5,8 @@
 
 #include <array>
 
+#include "spincat/parallel/process_state.h"
+
 namespace spincat::farm {
 
 Greeting own_greeting() {
@@ -44,6 +46,15 @@ Greeting unpack_greeting(std::string_view bytes) {
   greeting.processes = fields.get_text();
   greeting.process = fields.get<std::int64_t>();
   return greeting;
+}
+
+bool is_in_our_sight(const Greeting& greeting) {
+  static const Greeting own = own_greeting();
+  return greeting.process > 0 && greeting.process != own.process && greeting.processes == own.processes;
+}
+
+bool has_gone(const Greeting& greeting) {
+  return is_in_our_sight(greeting) && !is_there(greeting.process);
 }
 
 void pack_job_start(const JobStart& start, Packer& packer) {

@@ -12,20 +12,21 @@
 namespace spincat::farm {
 
 // Raised whenever a message changes: ranks of different versions must not work together.
-inline constexpr std::uint32_t kProtocol = 2;
+inline constexpr std::uint32_t kProtocol = 3;
 
 enum Tag : int {
-  kHello,     // to rank 0: Greeting
+  kHello,     // to rank 0 and from it: Greeting
   kJob,       // from rank 0: JobStart and its context
   kReady,     // to rank 0: job, threads
   kRefusal,   // to rank 0: job, reason
   kTask,      // from rank 0: job, task, its bytes
   kResult,    // to rank 0: job, TaskResult
-  kBeat,      // to rank 0: still there
+  kBeat,      // to rank 0 and from it: still there
   kTold,      // from rank 0: job, task, the result of another rank
   kEndOfJob,  // from rank 0: job
-  kQuit,      // from rank 0
+  kQuit,      // from rank 0: no more tasks
   kBye,       // to rank 0: the last word
+  kEnd,       // from rank 0: all have said theirs
 };
 
 // How a rank introduces itself.
@@ -46,6 +47,12 @@ struct JobStart {
 Greeting own_greeting();
 std::string pack(const Greeting& greeting);
 Greeting unpack_greeting(std::string_view bytes);
+
+// Whether this is another process whose state we can see: of our host, or of our container.
+bool is_in_our_sight(const Greeting& greeting);
+
+// Whether it has ended; false where that cannot be seen.
+bool has_gone(const Greeting& greeting);
 
 // Its context follows: it may be large, and need not be copied.
 void pack_job_start(const JobStart& start, Packer& packer);

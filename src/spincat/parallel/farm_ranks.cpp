@@ -7,24 +7,11 @@
 #include "spincat/parallel/process_state.h"
 
 namespace spincat {
-namespace {
-
-bool is_in_our_sight(const farm::Greeting& greeting) {
-  static const farm::Greeting own = farm::own_greeting();
-  return greeting.process > 0 && greeting.process != own.process && greeting.processes == own.processes;
-}
-
-}  // namespace
-
-bool TaskFarm::Rank::is_gone() const {
-  return is_in_our_sight(greeting) && !is_there(greeting.process);
-}
-
 bool TaskFarm::Rank::should_be_given_up(Clock::duration silent, bool is_cut_off) const {
-  if (is_gone()) {
+  if (farm::has_gone(greeting)) {
     return true;
   }
-  const bool in_sight = is_in_our_sight(greeting);
+  const bool in_sight = farm::is_in_our_sight(greeting);
   const bool stopped = in_sight && is_stopped(greeting.process) && silent > std::chrono::milliseconds(500);
   if (in_sight && (stopped || is_cut_off)) {
     ::kill(static_cast<pid_t>(greeting.process), SIGKILL);

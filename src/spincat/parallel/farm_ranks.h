@@ -36,9 +36,6 @@ struct TaskFarm::Rank {
     lost = false;
   }
 
-  // Whether its process has ended; false where that cannot be known, as of another host.
-  bool is_gone() const;
-
   // At the end: whether waiting for it is in vain, after it was silent for so long. Kills it where it is on this host
   // and stopped or cut off: it would never end.
   bool should_be_given_up(Clock::duration silent, bool is_cut_off) const;

@@ -14,6 +14,7 @@
 #include "spincat/parallel/farm_ranks.h"
 #include "spincat/parallel/packing.h"
 #include "spincat/parallel/pause.h"
+#include "spincat/parallel/pulse.h"
 #include "spincat/parallel/task_board.h"
 #include "spincat/parallel/thread_crew.h"
 
@@ -316,7 +317,7 @@ class TaskFarm::Run {
       if (stalled) {
         rank.last_heard = now;
       }
-      const bool is_away = rank.left || now - rank.last_heard > silence_deadline() || rank.is_gone() ||
+      const bool is_away = rank.left || now - rank.last_heard > silence_deadline() || farm::has_gone(rank.greeting) ||
                            farm_.ranks_.is_cut_off(static_cast<int>(r) + 1);
       if (!rank.lost && !rank.refused && is_away) {
         rank.lost = true;
@@ -358,7 +359,12 @@ class TaskFarm::Run {
   std::unique_ptr<ThreadCrew> crew_;
 };
 
-TaskFarm::TaskFarm(Communicator& ranks) : ranks_(ranks), others_(static_cast<std::size_t>(ranks.size()) - 1) {}
+TaskFarm::TaskFarm(Communicator& ranks) : ranks_(ranks), others_(static_cast<std::size_t>(ranks.size()) - 1) {
+  say_to_all(farm::kHello, shared(farm::pack(farm::own_greeting())));
+  if (!others_.empty()) {
+    pulse_ = std::make_unique<Pulse>(ranks_);
+  }
+}
 
 TaskFarm::~TaskFarm() {
   dismiss();
@@ -385,9 +391,12 @@ void TaskFarm::share(const std::string& kind, const Context& context) {
   if (others_.empty()) {
     return;
   }
-  const SharedBytes start = start_of(++job_, kind, context);
+  say_to_all(farm::kJob, start_of(++job_, kind, context));
+}
+
+void TaskFarm::say_to_all(int tag, const SharedBytes& bytes) {
   for (int r = 1; r < ranks_.size(); ++r) {
-    ranks_.send(r, farm::kJob, start);
+    ranks_.send(r, tag, bytes);
   }
 }
 
@@ -414,10 +423,9 @@ void TaskFarm::greet(Rank& rank, const Message& message) {
   }
 }
 
+// None may leave before all can: MPI ends well only where all come to its end together.
 void TaskFarm::dismiss() {
-  for (int r = 1; r < ranks_.size(); ++r) {
-    ranks_.send(r, farm::kQuit, shared({}));
-  }
+  say_to_all(farm::kQuit, shared({}));
   for (Rank& rank : others_) {
     rank.last_heard = Clock::now();
   }
@@ -443,11 +451,14 @@ void TaskFarm::dismiss() {
       }
       if (here(rank) && rank.should_be_given_up(now - rank.last_heard, ranks_.is_cut_off(number))) {
         rank.given_up = true;
+        ranks_.send(number, farm::kEnd, shared({}));  // it may still hear
         ranks_.give_up(number);
       }
     }
     std::this_thread::sleep_for(pause.after({.happened = heard}));
   }
+  pulse_.reset();  // the next is the last word
+  say_to_all(farm::kEnd, shared({}));
 }
 
 FarmReport TaskFarm::report() {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,14 +18,16 @@
 
 namespace spincat {
 
+class Pulse;
+
 // Packs what other ranks need.
 using Context = std::function<void(Packer& packer)>;
 
 // Tasks of one kind.
 struct Job {
-  std::string kind;                      // by which other ranks know the work
-  Context context;                       // what they need for it; also tells the journal which job this is
-  Work work;                             // the same work, here
+  std::string kind;  // by which other ranks know the work
+  Context context;   // what they need for it; also tells the journal which job this is
+  Work work;         // the same work, here
   std::size_t tasks = 0;
   std::function<std::string(std::size_t task)> task;  // what is to be done, as bytes
   std::function<void(std::size_t task, std::string result)>
@@ -83,9 +86,11 @@ class TaskFarm {
 
   SharedBytes start_of(std::uint32_t job, const std::string& kind, const Context& context) const;
   void greet(Rank& rank, const Message& message);
+  void say_to_all(int tag, const SharedBytes& bytes);
   void dismiss();
 
   Communicator& ranks_;
+  std::unique_ptr<Pulse> pulse_;  // null where there is no other rank
   int threads_ = 1;
   int requested_threads_ = 1;
   Journal* journal_ = nullptr;

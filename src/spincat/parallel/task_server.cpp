@@ -12,6 +12,7 @@
 #include "spincat/parallel/farm_messages.h"
 #include "spincat/parallel/packing.h"
 #include "spincat/parallel/pause.h"
+#include "spincat/parallel/task_farm.h"
 #include "spincat/parallel/thread_crew.h"
 
 namespace spincat {
@@ -20,7 +21,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kBetweenBeats(200);
-constexpr std::chrono::milliseconds kBetweenLooksAtParent(500);
+constexpr std::chrono::milliseconds kBetweenLooksAtMasters(500);
+constexpr std::chrono::milliseconds kStall(500);  // when we were away so long ourselves, silence means nothing
+constexpr double kPatience = 150.0;               // with rank 0, in deadlines for silence
 
 class Server {
  public:
@@ -30,31 +33,42 @@ class Server {
   }
 
   // Says good-bye whatever ends it, so that nobody waits for it.
-  void run(const std::function<void()>& keep_going) {
+  ServiceEnd run(const std::function<void()>& keep_going) {
     try {
-      work(keep_going);
+      const ServiceEnd end = work(keep_going);
+      leave();
+      return end;
     } catch (...) {
       leave();
       throw;
     }
-    leave();
   }
 
  private:
-  void work(const std::function<void()>& keep_going) {
+  ServiceEnd work(const std::function<void()>& keep_going) {
     Pause pause;
-    while (!quit_ && !is_orphan() && !ranks_.is_cut_off(0)) {
+    while (!ended_) {
+      if (is_abandoned()) {
+        return ServiceEnd::abandoned;
+      }
+      if (ranks_.is_cut_off(0)) {
+        return ServiceEnd::cut_off;
+      }
       keep_going();
       bool happened = hear();
       happened = answer() || happened;  // both
       beat();
       rest(pause.after({happened, ranks_.under_way() > 0, crew_ && crew_->tasks() > 0}));
     }
+    return ServiceEnd::dismissed;
   }
 
   void leave() {
-    end_crew();
-    say(farm::kBye, {});
+    if (!left_) {
+      left_ = true;
+      end_crew();
+      say(farm::kBye, {});
+    }
   }
 
   // Waits for the tasks that are under way; a rank that is heard is not given up.
@@ -79,12 +93,13 @@ class Server {
 
   bool hear() {
     bool heard = false;
-    while (!quit_) {
+    while (!ended_) {
       const std::optional<Message> message = ranks_.receive();
       if (!message) {
         break;
       }
       heard = true;
+      last_heard_ = Clock::now();
       act_on(*message);
     }
     return heard;
@@ -92,6 +107,9 @@ class Server {
 
   void act_on(const Message& message) {
     switch (message.tag) {
+      case farm::kHello:
+        rank0_ = farm::unpack_greeting(message.bytes);
+        break;
       case farm::kJob:
         start_job(message.bytes);
         break;
@@ -117,7 +135,10 @@ class Server {
         end_crew();
         break;
       case farm::kQuit:
-        quit_ = true;
+        leave();
+        break;
+      case farm::kEnd:
+        ended_ = true;
         break;
       default:
         break;
@@ -174,14 +195,23 @@ class Server {
     }
   }
 
-  // Whoever starts ranks waits for them; when that process is gone, nobody wants the results any more.
-  bool is_orphan() {
+  // Whoever starts ranks waits for them; when that process is gone, or rank 0, nobody wants the results any more.
+  bool is_abandoned() {
     const auto now = Clock::now();
-    if (now - looked_ > kBetweenLooksAtParent) {
-      looked_ = now;
-      orphan_ = getppid() != parent_;
+    if (now - last_turn_ > kStall) {
+      last_heard_ = now;
     }
-    return orphan_;
+    last_turn_ = now;
+    if (now - looked_ > kBetweenLooksAtMasters) {
+      looked_ = now;
+      abandoned_ = getppid() != parent_ || has_lost_rank0(now);
+    }
+    return abandoned_;
+  }
+
+  // On another host its silence is all we know.
+  bool has_lost_rank0(Clock::time_point now) const {
+    return farm::is_in_our_sight(rank0_) ? farm::has_gone(rank0_) : now - last_heard_ > kPatience * silence_deadline();
   }
 
   void rest(std::chrono::microseconds pause) {
@@ -201,17 +231,21 @@ class Server {
   std::unique_ptr<ThreadCrew> crew_;  // of the job that is on
   std::function<void(std::size_t task, std::string_view result)> keep_;
   std::uint32_t job_ = 0;
-  bool quit_ = false;
-  bool orphan_ = false;
+  farm::Greeting rank0_;
+  bool left_ = false;
+  bool ended_ = false;
+  bool abandoned_ = false;
   Clock::time_point looked_ = Clock::now();
+  Clock::time_point last_turn_ = looked_;
+  Clock::time_point last_heard_ = looked_;  // of rank 0
   Clock::time_point last_said_;
 };
 
 }  // namespace
 
-void serve(Communicator& ranks, const WorkFactory& factory, const std::function<int(int)>& thread_count,
-           const std::function<void()>& keep_going) {
-  Server(ranks, factory, thread_count).run(keep_going);
+ServiceEnd serve(Communicator& ranks, const WorkFactory& factory, const std::function<int(int)>& thread_count,
+                 const std::function<void()>& keep_going) {
+  return Server(ranks, factory, thread_count).run(keep_going);
 }
 
 }  // namespace spincat

@@ -14,6 +14,7 @@
 #include <deque>
 #include <iterator>
 #include <list>
+#include <mutex>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -26,7 +27,14 @@ namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 20;
 constexpr std::size_t kHead = sizeof(std::uint64_t);  // of a message's first piece: the length of the whole
-constexpr std::chrono::milliseconds kLastAnswers(50);
+// MPICH before 4.2 hangs at its end over TCP where a rank still answers another that has come there first; see below.
+#ifdef MPICH_VERSION
+constexpr bool kLastMuteness = true;
+#else
+constexpr bool kLastMuteness = false;
+#endif
+constexpr std::chrono::milliseconds kMuteBeforeEnd(100);
+constexpr std::chrono::milliseconds kFirstRankMute(300);
 constexpr int kPiecesAtOnce = 4;  // to one rank
 
 // A message to one rank, piece by piece.
@@ -101,15 +109,17 @@ class MpiCommunicator final : public Communicator {
     cut_off_.resize(static_cast<std::size_t>(size_), false);
   }
 
-  // Sends what is to be sent, and answers for a moment what the other side of a network still asks: MPICH over TCP
-  // otherwise hangs at its end, where one rank asks and the other no longer listens.
+  // Sends what is to be sent. Then MPICH asks every rank for a last answer, waits for those of all others, and listens
+  // no more: a rank that comes late gets no answer if it has given its own already. So all stop to listen before, and
+  // rank 0, without whose answer nobody gets on, comes last.
   ~MpiCommunicator() override {
     const bool all_there = std::ranges::find(cut_off_, true) == cut_off_.end();
-    const bool network = ranks_on_host_ < size_;
-    const auto end = std::chrono::steady_clock::now() + (network ? kLastAnswers : std::chrono::milliseconds(0));
-    while (all_there && (has_outgoing() || std::chrono::steady_clock::now() < end)) {
+    while (all_there && !std::ranges::all_of(out_, is_clear)) {
       move_on();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    if (kLastMuteness && all_there && ranks_on_host_ < size_) {
+      std::this_thread::sleep_for(rank_ == 0 ? kFirstRankMute : kMuteBeforeEnd);
     }
     MPI_Finalize();
   }
@@ -129,7 +139,8 @@ class MpiCommunicator final : public Communicator {
   }
 
   void send(int to, int tag, SharedBytes bytes) override {
-    if (is_cut_off(to)) {
+    const std::lock_guard lock(mutex_);
+    if (is_off(to)) {
       return;
     }
     auto message = std::make_shared<Outgoing>();
@@ -140,6 +151,7 @@ class MpiCommunicator final : public Communicator {
   }
 
   std::optional<Message> receive() override {
+    const std::lock_guard lock(mutex_);
     move_on();
     for (int i = 0; i < size_; ++i) {
       next_source_ = (next_source_ + 1) % size_;
@@ -150,7 +162,14 @@ class MpiCommunicator final : public Communicator {
     return std::nullopt;
   }
 
+  bool has_sent(int to) override {
+    const std::lock_guard lock(mutex_);
+    move_on_sending(to);
+    return is_clear(out_[static_cast<std::size_t>(to)]);
+  }
+
   std::size_t under_way() const override {
+    const std::lock_guard lock(mutex_);
     std::size_t count = 0;
     for (int r = 0; r < size_; ++r) {
       const auto i = static_cast<std::size_t>(r);
@@ -162,15 +181,23 @@ class MpiCommunicator final : public Communicator {
   }
 
   void give_up(int rank) override {
-    cut_off_[static_cast<std::size_t>(rank)] = true;
-    out_[static_cast<std::size_t>(rank)].waiting.clear();
+    const std::lock_guard lock(mutex_);
+    cut_off(rank);
   }
 
-  bool is_cut_off(int rank) const override { return cut_off_[static_cast<std::size_t>(rank)]; }
+  bool is_cut_off(int rank) const override {
+    const std::lock_guard lock(mutex_);
+    return is_off(rank);
+  }
 
  private:
-  bool has_outgoing() const {
-    return std::ranges::any_of(out_, [](const OutBox& box) { return !box.waiting.empty() || !box.under_way.empty(); });
+  static bool is_clear(const OutBox& box) { return box.waiting.empty() && box.under_way.empty(); }
+
+  bool is_off(int rank) const { return cut_off_[static_cast<std::size_t>(rank)]; }
+
+  void cut_off(int rank) {
+    cut_off_[static_cast<std::size_t>(rank)] = true;
+    out_[static_cast<std::size_t>(rank)].waiting.clear();
   }
 
   void move_on() {
@@ -182,18 +209,18 @@ class MpiCommunicator final : public Communicator {
 
   void move_on_sending(int to) {
     OutBox& box = out_[static_cast<std::size_t>(to)];
-    while (!is_cut_off(to) && !box.under_way.empty()) {
+    while (!is_off(to) && !box.under_way.empty()) {
       const Transfer state = state_of(box.under_way.front().request);
       if (state == Transfer::under_way) {
         break;
       }
       if (state == Transfer::failed) {
-        give_up(to);
+        cut_off(to);
       } else {
         box.under_way.pop_front();
       }
     }
-    if (is_cut_off(to)) {
+    if (is_off(to)) {
       let_go(box.under_way, failed_out_);
     }
     while (!box.waiting.empty() && box.under_way.size() < kPiecesAtOnce) {
@@ -227,7 +254,7 @@ class MpiCommunicator final : public Communicator {
         MPI_Isend(from, static_cast<int>(size), MPI_BYTE, to, message->tag, MPI_COMM_WORLD, &piece.request);
     if (sent != MPI_SUCCESS) {
       box.under_way.pop_back();
-      give_up(to);
+      cut_off(to);
     } else if (message->begun == message->bytes->size()) {
       box.waiting.pop_front();
     }
@@ -249,7 +276,7 @@ class MpiCommunicator final : public Communicator {
       piece.tag = status.MPI_TAG;
       piece.bytes.resize(static_cast<std::size_t>(size));
       if (MPI_Imrecv(piece.bytes.data(), size, MPI_BYTE, &message, &piece.request) != MPI_SUCCESS) {
-        give_up(status.MPI_SOURCE);
+        cut_off(status.MPI_SOURCE);
       }
     }
   }
@@ -257,19 +284,19 @@ class MpiCommunicator final : public Communicator {
   // Puts together what has come from a rank, until a message is whole.
   std::optional<Message> assemble(int from) {
     InBox& box = in_[static_cast<std::size_t>(from)];
-    while (!is_cut_off(from) && !box.under_way.empty()) {
+    while (!is_off(from) && !box.under_way.empty()) {
       const Transfer state = state_of(box.under_way.front().request);
       if (state == Transfer::under_way) {
         break;
       }
       if (state == Transfer::failed) {
-        give_up(from);
+        cut_off(from);
         break;
       }
       const IncomingPiece piece = std::move(box.under_way.front());
       box.under_way.pop_front();
       if (!box.in_message && piece.bytes.size() < kHead) {
-        give_up(from);
+        cut_off(from);
         break;
       }
       if (!box.in_message) {
@@ -286,12 +313,13 @@ class MpiCommunicator final : public Communicator {
         return std::move(box.message);
       }
     }
-    if (is_cut_off(from)) {
+    if (is_off(from)) {
       let_go(box.under_way, failed_in_);
     }
     return std::nullopt;
   }
 
+  mutable std::mutex mutex_;  // of all that follows, and of MPI
   int rank_ = 0;
   int size_ = 1;
   int ranks_on_host_ = 1;
@@ -325,7 +353,8 @@ int spincat_mpi_plugin_version() {
 spincat::Communicator* spincat_join_ranks() {
   spincat::choose_transport();
   int provided = 0;
-  if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS) {
+  if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided) != MPI_SUCCESS ||
+      provided < MPI_THREAD_SERIALIZED) {
     return nullptr;
   }
   MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);

@@ -125,6 +125,24 @@ int run(int argc, char** argv, TaskFarm& farm) {
   std::_Exit(1);
 }
 
+// What goes wrong here, rank 0 learns from our silence.
+int work_for_rank0(Communicator& ranks, const Launch& launch) {
+  ServiceRules rules;
+  rules.thread_count = [&](int requested) { return thread_count(requested, ranks.ranks_on_host()); };
+  rules.keep_going = stop_if_interrupted;
+  rules.leaves_silent_rank0 = launch.outlives_ranks;
+  try {
+    if (serve(ranks, pipeline_work(), rules) == ServiceEnd::abandoned) {
+      leave_abandoned(launch);
+    }
+    return 0;
+  } catch (const Interrupted& interrupted) {
+    return 128 + interrupted.signal;
+  } catch (const std::exception&) {
+    return 1;
+  }
+}
+
 // Rank 0 runs the command; the others work for it and say nothing.
 int run_on_ranks(int argc, char** argv, const Launch& launch) {
   const std::shared_ptr<HostRanks> host = ranks_of_host();
@@ -136,10 +154,7 @@ int run_on_ranks(int argc, char** argv, const Launch& launch) {
     TaskFarm farm(*ranks);  // its end waits for the others as long as they are heard
     code = report_errors([&] { return run(argc, argv, farm); });
   } else {
-    const auto threads = [&](int requested) { return thread_count(requested, ranks->ranks_on_host()); };
-    if (serve(*ranks, pipeline_work(), threads, stop_if_interrupted) == ServiceEnd::abandoned) {
-      leave_abandoned(launch);
-    }
+    code = work_for_rank0(*ranks, launch);
   }
   watch = watch_end(launch, host, {code, ranks->ranks_on_host() == ranks->size()});
   ranks.reset();  // ends MPI
@@ -157,10 +172,8 @@ int main(int argc, char** argv) {
   keep_command_line(argc, argv);
   const Launch launch = read_launch();
   if (launch.number > 0) {
-    try {  // what goes wrong here, rank 0 learns from our silence
+    try {
       return run_on_ranks(argc, argv, launch);
-    } catch (const Interrupted& interrupted) {
-      return 128 + interrupted.signal;
     } catch (const std::exception&) {
       return 1;
     }

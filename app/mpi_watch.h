@@ -45,8 +45,7 @@ struct MpiEnd {
 
 // While MPI ends: kills ranks of this host that stay stopped, and ends this process with its exit code when a rank
 // beside it has long gone. After fifteen deadlines rank 0 kills those of its host that are left, and ends; so do ranks
-// on several hosts, but not those that have rank 0 beside them: it may wait for another's last task. Whatever the
-// command had to write is complete by then.
+// on several hosts. Whatever the command had to write is complete by then.
 std::unique_ptr<MpiWatch> watch_end(const Launch& launch, std::shared_ptr<HostRanks> host, const MpiEnd& end);
 
 // For rank 0, when MPI has ended: waits for the other ranks of this host to go, at most two deadlines, and kills those

@@ -104,6 +104,8 @@ Launch read_launch() {
         launch.mpi = {};  // srun --mpi=none
       }
     }
+    const char* recovery = std::getenv("OMPI_MCA_orte_enable_recovery");  // mpirun --enable-recovery
+    launch.outlives_ranks = launch.launcher == "srun" || (recovery != nullptr && std::atoi(recovery) != 0);
     break;
   }
   return launch;

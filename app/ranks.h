@@ -15,6 +15,7 @@ struct Launch {
   int number = 0;                // of this process
   std::string launcher;          // "mpirun (Open MPI)"; empty when there is none
   std::vector<std::string> mpi;  // plug-ins to try, the likeliest first
+  bool outlives_ranks = false;   // whether the launcher lets the others go on when one is lost
 };
 
 Launch read_launch();

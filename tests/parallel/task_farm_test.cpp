@@ -40,7 +40,7 @@ std::string square(std::string_view context, std::string_view task) {
 // Several ranks as threads; the farm lives in the thread of the test.
 class Ranks {
  public:
-  explicit Ranks(int count, int threads_each = 1, std::function<void()> before_task = {})
+  explicit Ranks(int count, int threads_each = 1, const std::function<void()>& before_task = {})
       : wires_(std::make_shared<Wires>(count)), ranks_(wires_, 0), kept_(static_cast<std::size_t>(count)) {
     for (int r = 1; r < count; ++r) {
       const auto factory = [before_task, &kept = kept_[static_cast<std::size_t>(r)]](std::string_view kind,
@@ -59,8 +59,7 @@ class Ranks {
       };
       servers_.emplace_back([this, r, factory, threads_each] {
         ThreadCommunicator ranks(wires_, r);
-        const ServiceEnd end = serve(
-            ranks, factory, [&](int) { return threads_each; }, [] {});
+        const ServiceEnd end = serve(ranks, factory, {[&](int) { return threads_each; }, [] {}, true});
         const std::lock_guard lock(ends_mutex_);
         ends_[r] = end;
       });
@@ -270,6 +269,9 @@ TEST(TaskFarm, ARankThatIsCutOffIsDoneWithoutAndLeaves) {
   expect_squares(outcome, 200);
   EXPECT_TRUE(farm.report().ranks[1].lost);
   EXPECT_FALSE(farm.report().ranks[2].lost);
+  while (others.ends().empty()) {  // the other waits for the end of the farm
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
   EXPECT_EQ(others.ends(), (std::map{std::pair{1, ServiceEnd::cut_off}}));
 }
 
@@ -305,6 +307,36 @@ TEST(TaskFarm, NoRankLeavesBeforeAllAreDone) {
   waits.join();
   others.join();
   EXPECT_EQ(others.ends(), (std::map{std::pair{1, ServiceEnd::dismissed}, std::pair{2, ServiceEnd::dismissed}}));
+}
+
+TEST(TaskServer, StaysUntilAllAreDoneWhenItsWorkIsEnded) {
+  const auto wires = std::make_shared<Wires>(2);
+  std::atomic<bool> is_told = false;
+  std::atomic<bool> has_left = false;
+  std::thread server([&] {
+    ThreadCommunicator ranks(wires, 1);
+    const auto keep_going = [&] {
+      is_told = true;
+      throw RunError("interrupted");
+    };
+    const WorkFactory no_work = [](std::string_view, std::string_view) -> RankWork { throw RunError("not known"); };
+    EXPECT_THROW(serve(ranks, no_work, {[](int) { return 1; }, keep_going}), RunError);
+    has_left = true;
+  });
+  {
+    ThreadCommunicator ranks(wires, 0);
+    TaskFarm farm(ranks);
+    Outcome outcome;
+    const std::vector<int> numbers = numbers_up_to(20);
+    while (!is_told) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    farm.run(squares(numbers, outcome));
+    expect_squares(outcome, 20);
+    EXPECT_FALSE(has_left);
+  }
+  server.join();
+  EXPECT_TRUE(has_left);
 }
 
 TEST(TaskServer, LeavesWhenRank0SaysNothingMore) {

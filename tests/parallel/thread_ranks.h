@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -57,10 +58,18 @@ class ThreadCommunicator final : public Communicator {
     }
     Message message = std::move(inbox.front());
     inbox.pop_front();
+    heard_[message.from] = Clock::now();
     return message;
   }
 
   bool has_sent(int) override { return true; }
+
+  Clock::time_point heard(int from) const override {
+    const std::lock_guard lock(wires_->mutex);
+    const auto found = heard_.find(from);
+    return found != heard_.end() ? found->second : start_;
+  }
+
   std::size_t under_way() const override { return 0; }
   void give_up(int) override {}
   bool is_cut_off(int rank) const override {
@@ -73,6 +82,8 @@ class ThreadCommunicator final : public Communicator {
 
   std::shared_ptr<Wires> wires_;
   int rank_;
+  const Clock::time_point start_ = Clock::now();
+  std::map<int, Clock::time_point> heard_;
 };
 
 }  // namespace spincat::test

@@ -73,8 +73,7 @@ class ServingRanks {
     for (int r = 1; r < count; ++r) {
       servers_.emplace_back([wires = wires_, r] {
         test::ThreadCommunicator ranks(wires, r);
-        serve(
-            ranks, pipeline_work(), [](int) { return 2; }, [] {});
+        serve(ranks, pipeline_work(), {[](int) { return 2; }, [] {}});
       });
     }
   }

@@ -1,6 +1,7 @@
 // Ranks: the processes of one run, on one machine or many, and how they send each other bytes.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,10 +18,12 @@ struct Message {
 };
 
 // The processes that run together. There are no collective operations and nothing blocks: a rank that was lost can
-// never hold up another. May be used by several threads. Header only, so that an MPI of any make can be
-// loaded as a plug-in (mpi_plugin.h).
+// never hold up another. May be used by several threads. Header only, so that an MPI of any make can be loaded as a
+// plug-in (mpi_plugin.h).
 class Communicator {
  public:
+  using Clock = std::chrono::steady_clock;
+
   virtual ~Communicator() = default;
 
   virtual int rank() const = 0;  // of this process, 0 to size() - 1
@@ -37,6 +40,9 @@ class Communicator {
 
   // Moves on what is on its way to a rank; whether nothing is left of it.
   virtual bool has_sent(int to) = 0;
+
+  // When anything last came from a rank, if only a part of a message.
+  virtual Clock::time_point heard(int from) const = 0;
 
   // How many messages are on their way, to or from this rank, as far as this rank knows.
   virtual std::size_t under_way() const = 0;
@@ -58,6 +64,7 @@ class SerialCommunicator final : public Communicator {
   void send(int, int, SharedBytes) override {}
   std::optional<Message> receive() override { return std::nullopt; }
   bool has_sent(int) override { return true; }
+  Clock::time_point heard(int) const override { return {}; }
   std::size_t under_way() const override { return 0; }
   void give_up(int) override {}
   bool is_cut_off(int) const override { return false; }

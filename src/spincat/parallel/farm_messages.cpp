@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <fstream>
 
 #include "spincat/parallel/process_state.h"
 
@@ -19,7 +20,9 @@ Greeting own_greeting() {
   Greeting greeting;
   greeting.program = "spincat " SPINCAT_VERSION;
   greeting.host = host.data();
-  greeting.processes = greeting.host + "/" + std::to_string(known ? processes.st_ino : 0);
+  std::string boot;  // hosts may have the same name
+  std::ifstream("/proc/sys/kernel/random/boot_id") >> boot;
+  greeting.processes = greeting.host + "/" + boot + "/" + std::to_string(known ? processes.st_ino : 0);
   greeting.process = getpid();
   return greeting;
 }

@@ -34,7 +34,7 @@ struct Greeting {
   std::uint32_t protocol = kProtocol;
   std::string program;  // name and version
   std::string host;
-  std::string processes;  // which process numbers are valid together: host and PID namespace
+  std::string processes;  // which process numbers are valid together: of one kernel and PID namespace
   std::int64_t process = 0;
 };
 
@@ -48,7 +48,7 @@ Greeting own_greeting();
 std::string pack(const Greeting& greeting);
 Greeting unpack_greeting(std::string_view bytes);
 
-// Whether this is another process whose state we can see: of our host, or of our container.
+// Whether this is another process whose state we can see: of our host and our container.
 bool is_in_our_sight(const Greeting& greeting);
 
 // Whether it has ended; false where that cannot be seen.

@@ -2,13 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <csignal>
 #include <fstream>
 #include <string>
 
 namespace spincat {
 namespace {
 
-// 'R' running, 'T' stopped, 'Z' dead, ... (man 5 proc); 0 where there is no such process.
+// 'R' running, 'T' stopped, 'Z' dead, ... (man 5 proc); 0 where it cannot be read.
 char state_of(std::int64_t process) {
   std::ifstream stream(fmt::format("/proc/{}/stat", process));
   std::string line;
@@ -20,8 +22,11 @@ char state_of(std::int64_t process) {
 }  // namespace
 
 bool is_there(std::int64_t process) {
+  if (::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH) {
+    return false;
+  }
   const char state = state_of(process);
-  return state != '\0' && state != 'Z' && state != 'X';
+  return state != 'Z' && state != 'X';
 }
 
 bool is_stopped(std::int64_t process) {

@@ -314,9 +314,7 @@ class TaskFarm::Run {
     last_look_ = now;
     for (std::size_t r = 0; started_ && r < farm_.others_.size(); ++r) {
       Rank& rank = farm_.others_[r];
-      if (stalled) {
-        rank.last_heard = now;
-      }
+      rank.last_heard = stalled ? now : std::max(rank.last_heard, farm_.ranks_.heard(static_cast<int>(r) + 1));
       const bool is_away = rank.left || now - rank.last_heard > silence_deadline() || farm::has_gone(rank.greeting) ||
                            farm_.ranks_.is_cut_off(static_cast<int>(r) + 1);
       if (!rank.lost && !rank.refused && is_away) {
@@ -361,8 +359,11 @@ class TaskFarm::Run {
 
 TaskFarm::TaskFarm(Communicator& ranks) : ranks_(ranks), others_(static_cast<std::size_t>(ranks.size()) - 1) {
   say_to_all(farm::kHello, shared(farm::pack(farm::own_greeting())));
-  if (!others_.empty()) {
-    pulse_ = std::make_unique<Pulse>(ranks_);
+  try {
+    pulse_ = others_.empty() ? nullptr : std::make_unique<Pulse>(ranks_);
+  } catch (...) {  // no thread can be made
+    dismiss();
+    throw;
   }
 }
 
@@ -446,12 +447,10 @@ void TaskFarm::dismiss() {
     for (std::size_t r = 0; r < others_.size(); ++r) {
       Rank& rank = others_[r];
       const int number = static_cast<int>(r) + 1;
-      if (stalled) {
-        rank.last_heard = now;
-      }
+      rank.last_heard = stalled ? now : std::max(rank.last_heard, ranks_.heard(number));
       if (here(rank) && rank.should_be_given_up(now - rank.last_heard, ranks_.is_cut_off(number))) {
         rank.given_up = true;
-        ranks_.send(number, farm::kEnd, shared({}));  // it may still hear
+        ranks_.send(number, farm::kEnd, shared({}));  // in case it still hears
         ranks_.give_up(number);
       }
     }

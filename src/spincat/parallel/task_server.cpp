@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <exception>
@@ -27,40 +28,38 @@ constexpr double kPatience = 150.0;               // with rank 0, in deadlines f
 
 class Server {
  public:
-  Server(Communicator& ranks, const WorkFactory& factory, const std::function<int(int)>& thread_count)
-      : ranks_(ranks), factory_(factory), thread_count_(thread_count), parent_(getppid()) {
+  Server(Communicator& ranks, const WorkFactory& factory, const ServiceRules& rules)
+      : ranks_(ranks), factory_(factory), rules_(rules), parent_(getppid()) {
     say(farm::kHello, pack(farm::own_greeting()));
   }
 
-  // Says good-bye whatever ends it, so that nobody waits for it.
-  ServiceEnd run(const std::function<void()>& keep_going) {
+  // Says good-bye whatever ends the work, so that nobody waits for it; and stays until all have, as MPI ends well only
+  // where all come to its end together.
+  ServiceEnd run() {
+    std::exception_ptr problem;
     try {
-      const ServiceEnd end = work(keep_going);
-      leave();
-      return end;
+      work(rules_.keep_going);
     } catch (...) {
-      leave();
-      throw;
+      problem = std::current_exception();
     }
+    leave();
+    work([] {});
+    if (problem) {
+      std::rethrow_exception(problem);
+    }
+    return ended_ ? ServiceEnd::dismissed : is_abandoned() ? ServiceEnd::abandoned : ServiceEnd::cut_off;
   }
 
  private:
-  ServiceEnd work(const std::function<void()>& keep_going) {
+  void work(const std::function<void()>& keep_going) {
     Pause pause;
-    while (!ended_) {
-      if (is_abandoned()) {
-        return ServiceEnd::abandoned;
-      }
-      if (ranks_.is_cut_off(0)) {
-        return ServiceEnd::cut_off;
-      }
+    while (!ended_ && !is_abandoned() && !ranks_.is_cut_off(0)) {
       keep_going();
       bool happened = hear();
       happened = answer() || happened;  // both
       beat();
       rest(pause.after({happened, ranks_.under_way() > 0, crew_ && crew_->tasks() > 0}));
     }
-    return ServiceEnd::dismissed;
   }
 
   void leave() {
@@ -99,13 +98,15 @@ class Server {
         break;
       }
       heard = true;
-      last_heard_ = Clock::now();
       act_on(*message);
     }
     return heard;
   }
 
   void act_on(const Message& message) {
+    if (left_ && message.tag != farm::kEnd) {
+      return;
+    }
     switch (message.tag) {
       case farm::kHello:
         rank0_ = farm::unpack_greeting(message.bytes);
@@ -151,7 +152,7 @@ class Server {
     const farm::JobStart start = farm::unpack_job_start(fields);
     job_ = start.job;
     try {
-      const int threads = thread_count_(start.threads);
+      const int threads = rules_.thread_count(start.threads);
       RankWork work = factory_(start.kind, fields.rest());
       keep_ = std::move(work.keep);
       crew_ = std::make_unique<ThreadCrew>(std::move(work.work), threads);
@@ -199,19 +200,20 @@ class Server {
   bool is_abandoned() {
     const auto now = Clock::now();
     if (now - last_turn_ > kStall) {
-      last_heard_ = now;
+      awake_since_ = now;
     }
     last_turn_ = now;
     if (now - looked_ > kBetweenLooksAtMasters) {
       looked_ = now;
-      abandoned_ = getppid() != parent_ || has_lost_rank0(now);
+      abandoned_ = getppid() != parent_ || farm::has_gone(rank0_) || is_silent(now);
     }
     return abandoned_;
   }
 
-  // On another host its silence is all we know.
-  bool has_lost_rank0(Clock::time_point now) const {
-    return farm::is_in_our_sight(rank0_) ? farm::has_gone(rank0_) : now - last_heard_ > kPatience * silence_deadline();
+  // Rank 0, on a host where nothing else tells us whether it is there.
+  bool is_silent(Clock::time_point now) const {
+    return rules_.leaves_silent_rank0 && !farm::is_in_our_sight(rank0_) &&
+           now - std::max(awake_since_, ranks_.heard(0)) > kPatience * silence_deadline();
   }
 
   void rest(std::chrono::microseconds pause) {
@@ -226,7 +228,7 @@ class Server {
 
   Communicator& ranks_;
   const WorkFactory& factory_;
-  const std::function<int(int)>& thread_count_;
+  const ServiceRules& rules_;
   const pid_t parent_;
   std::unique_ptr<ThreadCrew> crew_;  // of the job that is on
   std::function<void(std::size_t task, std::string_view result)> keep_;
@@ -237,15 +239,14 @@ class Server {
   bool abandoned_ = false;
   Clock::time_point looked_ = Clock::now();
   Clock::time_point last_turn_ = looked_;
-  Clock::time_point last_heard_ = looked_;  // of rank 0
+  Clock::time_point awake_since_ = looked_;
   Clock::time_point last_said_;
 };
 
 }  // namespace
 
-ServiceEnd serve(Communicator& ranks, const WorkFactory& factory, const std::function<int(int)>& thread_count,
-                 const std::function<void()>& keep_going) {
-  return Server(ranks, factory, thread_count).run(keep_going);
+ServiceEnd serve(Communicator& ranks, const WorkFactory& factory, const ServiceRules& rules) {
+  return Server(ranks, factory, rules).run();
 }
 
 }  // namespace spincat

@@ -12,12 +12,20 @@ namespace spincat {
 enum class ServiceEnd {
   dismissed,  // rank 0 said so, when all ranks were done
   cut_off,    // a message to or from rank 0 failed
-  abandoned   // the process that started this one has gone, or rank 0: seen on its host, else after 150 deadlines
+  abandoned   // rank 0 or the process that started this one has gone
 };
 
-// Does the tasks that rank 0 hands out. `thread_count` says how many threads to use when the user asked for so many
-// (0: for what is there). `keep_going` is called now and then; what it throws ends the service and arrives here.
-ServiceEnd serve(Communicator& ranks, const WorkFactory& factory, const std::function<int(int requested)>& thread_count,
-                 const std::function<void()>& keep_going);
+struct ServiceRules {
+  // How many threads to use when the user asked for so many (0: for what is there).
+  std::function<int(int requested)> thread_count;
+  // Called now and then. What it throws ends the work, and arrives at the caller when all ranks are done.
+  std::function<void()> keep_going;
+  // Whether to leave when rank 0, on another host, says nothing for 150 deadlines. Where the launcher ends all ranks
+  // when one is lost this is never needed, and would end them for a rank that is only cut off.
+  bool leaves_silent_rank0 = false;
+};
+
+// Does the tasks that rank 0 hands out.
+ServiceEnd serve(Communicator& ranks, const WorkFactory& factory, const ServiceRules& rules);
 
 }  // namespace spincat

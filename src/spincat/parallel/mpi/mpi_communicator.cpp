@@ -27,14 +27,15 @@ namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 20;
 constexpr std::size_t kHead = sizeof(std::uint64_t);  // of a message's first piece: the length of the whole
-// MPICH before 4.2 hangs at its end over TCP where a rank still answers another that has come there first; see below.
+// MPICH 4.0 hangs at its end over TCP where a rank still answers another that has come there first (pmodels/mpich, pull
+// request 6596); see below.
 #ifdef MPICH_VERSION
-constexpr bool kLastMuteness = true;
+constexpr bool kIsMuteBeforeEnd = true;
 #else
-constexpr bool kLastMuteness = false;
+constexpr bool kIsMuteBeforeEnd = false;
 #endif
-constexpr std::chrono::milliseconds kMuteBeforeEnd(100);
-constexpr std::chrono::milliseconds kFirstRankMute(300);
+constexpr std::chrono::milliseconds kMute(300);  // more than it takes TCP to send again what was lost
+constexpr std::chrono::milliseconds kRank0Mute(600);
 constexpr int kPiecesAtOnce = 4;  // to one rank
 
 // A message to one rank, piece by piece.
@@ -63,6 +64,7 @@ struct IncomingPiece {
 };
 
 struct InBox {
+  Communicator::Clock::time_point heard = Communicator::Clock::now();
   std::list<IncomingPiece> under_way;
   bool in_message = false;
   std::uint64_t length = 0;  // of the message that is being put together
@@ -109,17 +111,17 @@ class MpiCommunicator final : public Communicator {
     cut_off_.resize(static_cast<std::size_t>(size_), false);
   }
 
-  // Sends what is to be sent. Then MPICH asks every rank for a last answer, waits for those of all others, and listens
-  // no more: a rank that comes late gets no answer if it has given its own already. So all stop to listen before, and
-  // rank 0, without whose answer nobody gets on, comes last.
+  // Sends what is to be sent. Then MPICH asks each rank that it has sent to over TCP for a last answer, and listens no
+  // more when it has them all: a rank that comes later, having given its own before, waits for ever. So all stop to
+  // listen first, and go to the end when all have; rank 0, whose answer those on other hosts need, last of all.
   ~MpiCommunicator() override {
     const bool all_there = std::ranges::find(cut_off_, true) == cut_off_.end();
     while (all_there && !std::ranges::all_of(out_, is_clear)) {
       move_on();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    if (kLastMuteness && all_there && ranks_on_host_ < size_) {
-      std::this_thread::sleep_for(rank_ == 0 ? kFirstRankMute : kMuteBeforeEnd);
+    if (kIsMuteBeforeEnd && ranks_on_host_ < size_) {
+      std::this_thread::sleep_for(rank_ == 0 ? kRank0Mute : kMute);
     }
     MPI_Finalize();
   }
@@ -166,6 +168,11 @@ class MpiCommunicator final : public Communicator {
     const std::lock_guard lock(mutex_);
     move_on_sending(to);
     return is_clear(out_[static_cast<std::size_t>(to)]);
+  }
+
+  Clock::time_point heard(int from) const override {
+    const std::lock_guard lock(mutex_);
+    return in_[static_cast<std::size_t>(from)].heard;
   }
 
   std::size_t under_way() const override {
@@ -272,7 +279,9 @@ class MpiCommunicator final : public Communicator {
       }
       int size = 0;
       MPI_Get_count(&status, MPI_BYTE, &size);
-      IncomingPiece& piece = in_[static_cast<std::size_t>(status.MPI_SOURCE)].under_way.emplace_back();
+      InBox& box = in_[static_cast<std::size_t>(status.MPI_SOURCE)];
+      box.heard = Clock::now();
+      IncomingPiece& piece = box.under_way.emplace_back();
       piece.tag = status.MPI_TAG;
       piece.bytes.resize(static_cast<std::size_t>(size));
       if (MPI_Imrecv(piece.bytes.data(), size, MPI_BYTE, &message, &piece.request) != MPI_SUCCESS) {
@@ -319,10 +328,10 @@ class MpiCommunicator final : public Communicator {
     return std::nullopt;
   }
 
-  mutable std::mutex mutex_;  // of all that follows, and of MPI
   int rank_ = 0;
   int size_ = 1;
   int ranks_on_host_ = 1;
+  mutable std::mutex mutex_;  // of all that follows, and of messages in MPI
   int next_source_ = 0;
   std::vector<OutBox> out_;
   std::vector<InBox> in_;

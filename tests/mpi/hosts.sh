@@ -43,6 +43,8 @@ exec ssh -i $work/key -o StrictHostKeyChecking=no -o UserKnownHostsFile=/dev/nul
 SSH
 chmod 755 "$work/ssh"
 mkdir -p /run/sshd
+printf 'HostKey %s/key\nAuthorizedKeysFile %s/authorized\nStrictModes no\nUsePAM no\nPidFile none\nPermitRootLogin yes\n' \
+  "$work" "$work" >"$work/sshd_config"
 sshd="$(command -v sshd || echo /usr/sbin/sshd)"
 for i in 0 1 2; do
   host="h$i"
@@ -55,8 +57,6 @@ for i in 0 1 2; do
   ip -n "$space" link set eth0 up
   mkdir -p "/etc/netns/$space"
   printf '127.0.0.1 localhost\n10.77.0.10 h0\n10.77.0.11 h1\n10.77.0.12 h2\n' >"/etc/netns/$space/hosts"
-  printf 'HostKey %s/key\nAuthorizedKeysFile %s/authorized\nStrictModes no\nUsePAM no\nPidFile none\nPermitRootLogin yes\n' \
-    "$work" "$work" >"$work/sshd_config"
   ip netns exec "$space" unshare -u sh -c "hostname $host; exec $sshd -f $work/sshd_config -D" >"$work/sshd-$i.err" 2>&1 </dev/null &
 done
 

@@ -64,9 +64,9 @@ class Server {
 
   void leave() {
     if (!left_) {
-      left_ = true;
       end_crew();
       say(farm::kBye, {});
+      left_ = true;
     }
   }
 
@@ -104,7 +104,7 @@ class Server {
   }
 
   void act_on(const Message& message) {
-    if (left_ && message.tag != farm::kEnd) {
+    if (left_ && message.tag != farm::kEnd && message.tag != farm::kHello) {
       return;
     }
     switch (message.tag) {
@@ -191,7 +191,7 @@ class Server {
 
   // Tells rank 0 that long tasks and long messages are no sign of death.
   void beat() {
-    if ((crew_ || ranks_.under_way() > 0) && Clock::now() - last_said_ > kBetweenBeats) {
+    if (!left_ && (crew_ || ranks_.under_way() > 0) && Clock::now() - last_said_ > kBetweenBeats) {
       say(farm::kBeat, {});
     }
   }
@@ -205,7 +205,7 @@ class Server {
     last_turn_ = now;
     if (now - looked_ > kBetweenLooksAtMasters) {
       looked_ = now;
-      abandoned_ = getppid() != parent_ || farm::has_gone(rank0_) || is_silent(now);
+      abandoned_ = abandoned_ || getppid() != parent_ || farm::has_gone(rank0_) || is_silent(now);
     }
     return abandoned_;
   }

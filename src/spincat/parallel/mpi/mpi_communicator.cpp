@@ -304,6 +304,7 @@ class MpiCommunicator final : public Communicator {
       }
       const IncomingPiece piece = std::move(box.under_way.front());
       box.under_way.pop_front();
+      box.heard = Clock::now();
       if (!box.in_message && piece.bytes.size() < kHead) {
         cut_off(from);
         break;

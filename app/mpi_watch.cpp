@@ -215,8 +215,11 @@ void leave_last(const Launch& launch, HostRanks& host) {
   }
   host.begin_again();
   host.look();
-  while (host.others_are_there() && host.watched_for() < 2.0) {
+  while (host.others_are_there() && host.watched_for() < 3.0) {
     host.kill_stopped();
+    if (host.watched_for() > 2.0) {
+      host.kill_others();  // they no longer hear us
+    }
     std::this_thread::sleep_for(kBetweenLastLooks);
     host.look();
   }

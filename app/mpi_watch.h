@@ -49,7 +49,7 @@ struct MpiEnd {
 std::unique_ptr<MpiWatch> watch_end(const Launch& launch, std::shared_ptr<HostRanks> host, const MpiEnd& end);
 
 // For rank 0, when MPI has ended: waits for the other ranks of this host to go, at most two deadlines, and kills those
-// that stay stopped. Nobody else would, and the launcher would wait for them for ever.
+// that stay stopped, and then those that stay: nobody else would, and the launcher would wait for them for ever.
 void leave_last(const Launch& launch, HostRanks& host);
 
 }  // namespace spincat::app

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 
 #include "spincat/error.h"
@@ -42,6 +43,13 @@ int number_in(const char* variable) {
 
 bool is_set(const char* variable) {
   return std::getenv(variable) != nullptr;
+}
+
+// As Open MPI reads it: a number, or a word such as "true" or "enabled".
+bool is_on(const char* variable) {
+  const char* text = std::getenv(variable);
+  return text != nullptr &&
+         (std::atoi(text) != 0 || std::string_view("tTyYeE").find(text[0]) != std::string_view::npos);
 }
 
 // Beside the program in a build, in lib/spincat beside bin where it is installed.
@@ -104,8 +112,8 @@ Launch read_launch() {
         launch.mpi = {};  // srun --mpi=none
       }
     }
-    const char* recovery = std::getenv("OMPI_MCA_orte_enable_recovery");  // mpirun --enable-recovery
-    launch.outlives_ranks = launch.launcher == "srun" || (recovery != nullptr && std::atoi(recovery) != 0);
+    // mpirun --enable-recovery
+    launch.outlives_ranks = launch.launcher == "srun" || is_on("OMPI_MCA_orte_enable_recovery");
     break;
   }
   return launch;

@@ -16,18 +16,24 @@ class BrokenLinks : public Launching, public testing::WithParamInterface<Mpi> {
     ASSERT_EQ(alone("train boxes --threads 1 -o alone.spincat").code, 0);
   }
 
-  RunResult train_with(const std::string& failure) {
-    fs::remove(dir_.path() / "ranks.spincat");
+  RunResult run_with(const std::string& failure, const std::string& arguments) {
     const Mpi& mpi = GetParam();
-    RunResult result =
-        shell(fmt::format("{} {} -n 3 env LD_PRELOAD={}{}.so SPINCAT_FAIL='{}' SPINCAT_DEADLINE=0.5 '{}' "
-                          "train boxes --threads 1 -o ranks.spincat",
-                          mpi.launcher, mpi.recovery, SPINCAT_FAILING_MPI, mpi.name, failure, SPINCAT_COMMAND));
-    EXPECT_TRUE(fs::exists(dir_.path() / failure)) << failure << " did not come";
+    RunResult result = shell(
+        fmt::format("{} {} -n 3 env LD_PRELOAD={}{}.so SPINCAT_FAIL='{}' SPINCAT_DEADLINE=0.5 '{}' {}", mpi.launcher,
+                    mpi.recovery, SPINCAT_FAILING_MPI, mpi.name, failure, SPINCAT_COMMAND, arguments));
     EXPECT_TRUE(result.code != 124 && result.code != 137) << failure << " hangs\n" << result.err;
     EXPECT_EQ(result.err.find("/spincat("), std::string::npos) << failure << " makes us crash\n" << result.err;
     return result;
   }
+
+  RunResult train_with(const std::string& failure) {
+    fs::remove(dir_.path() / "ranks.spincat");
+    RunResult result = run_with(failure, "train boxes --threads 1 -o ranks.spincat");
+    EXPECT_TRUE(has_come(failure)) << failure << " did not come";
+    return result;
+  }
+
+  bool has_come(const std::string& failure) const { return fs::exists(dir_.path() / failure); }
 
   // The result is complete before a rank is given up, whatever the launcher then makes of it: Open MPI's may crash at
   // its own end.
@@ -47,6 +53,32 @@ TEST_P(BrokenLinks, CostNothingButTime) {
         expect_right_after(fmt::format("{} {} {}", rank, function, call));
       }
     }
+  }
+}
+
+// Each time that a rank asks for much: for an object that has come, the images of a task, what is to be written.
+TEST_P(BrokenLinks, WithoutMemoryTheResultIsRightOrThereIsNone) {
+  make_scan("scan.off", 100);
+  const std::string spin = "spin scan.off --spin-points 900 --threads 1 --journal none -o ";
+  ASSERT_EQ(alone(spin + "alone.npy").code, 0);
+  for (const int rank : {0, 1}) {
+    int request = 1;
+    while (true) {
+      fs::remove(dir_.path() / "ranks.npy");
+      const std::string failure = fmt::format("{} memory {}", rank, request);
+      const RunResult result = run_with(failure, spin + "ranks.npy");
+      if (!has_come(failure)) {
+        break;
+      }
+      if (fs::exists(dir_.path() / "ranks.npy")) {
+        EXPECT_TRUE(bytes("ranks.npy") == bytes("alone.npy")) << failure << "\n" << result.err;
+        EXPECT_NE(result.code, 1) << failure << "\n" << result.err;
+      } else {
+        EXPECT_NE(result.err.find("not enough memory"), std::string::npos) << failure << "\n" << result.err;
+      }
+      ++request;
+    }
+    EXPECT_GT(request, 2) << "rank " << rank << " asks for little";
   }
 }
 

@@ -1,13 +1,15 @@
 // Loaded before an MPI: one call of one function fails on one rank, as when a link breaks, or is where that rank stops
-// (MPI_Init_thread). SPINCAT_FAIL says which, as "1 MPI_Isend 7" (rank, function, number of the call); a file of that
-// name says that it has come.
+// (MPI_Init_thread). SPINCAT_FAIL says which, as "1 MPI_Isend 7" (rank, function, number of the call), or "1 memory 7"
+// for a request for 200,000 bytes or more; a file of that name says that it has come.
 #include <dlfcn.h>
 #include <mpi.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <new>
 #include <sstream>
 #include <string>
 
@@ -18,7 +20,7 @@ bool fails(const char* function) {
     const char* text = std::getenv("SPINCAT_FAIL");
     return std::string(text != nullptr ? text : "");
   }();
-  static int calls = 0;
+  static std::atomic<int> calls{0};
   const char* open = std::getenv("OMPI_COMM_WORLD_RANK");
   const char* rank = open != nullptr ? open : std::getenv("PMI_RANK");
   std::istringstream fields(wanted);
@@ -40,6 +42,22 @@ Function own(Function, const char* name) {
 }
 
 }  // namespace
+
+void* operator new(std::size_t size) {
+  void* memory = size >= 200'000 && fails("memory") ? nullptr : std::malloc(size);
+  if (memory == nullptr) {
+    throw std::bad_alloc();
+  }
+  return memory;
+}
+
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
 
 extern "C" {
 

@@ -281,12 +281,22 @@ class MpiCommunicator final : public Communicator {
       MPI_Get_count(&status, MPI_BYTE, &size);
       InBox& box = in_[static_cast<std::size_t>(status.MPI_SOURCE)];
       box.heard = Clock::now();
+      receive_piece(box, status.MPI_SOURCE, status.MPI_TAG, size, message);
+    }
+  }
+
+  // What follows a piece that cannot come (there is no memory for it, say) cannot be put together.
+  void receive_piece(InBox& box, int from, int tag, int size, MPI_Message message) {
+    try {
       IncomingPiece& piece = box.under_way.emplace_back();
-      piece.tag = status.MPI_TAG;
+      piece.tag = tag;
       piece.bytes.resize(static_cast<std::size_t>(size));
       if (MPI_Imrecv(piece.bytes.data(), size, MPI_BYTE, &message, &piece.request) != MPI_SUCCESS) {
-        cut_off(status.MPI_SOURCE);
+        cut_off(from);
       }
+    } catch (...) {
+      cut_off(from);
+      throw;
     }
   }
 
@@ -305,21 +315,13 @@ class MpiCommunicator final : public Communicator {
       const IncomingPiece piece = std::move(box.under_way.front());
       box.under_way.pop_front();
       box.heard = Clock::now();
-      if (!box.in_message && piece.bytes.size() < kHead) {
+      try {
+        add(piece, from, box);
+      } catch (...) {
         cut_off(from);
-        break;
+        throw;
       }
-      if (!box.in_message) {
-        std::memcpy(&box.length, piece.bytes.data(), kHead);
-        box.message = {from, piece.tag, {}};
-        box.in_message = true;
-        box.message.bytes.reserve(box.length);
-        box.message.bytes.append(piece.bytes, kHead);
-      } else {
-        box.message.bytes += piece.bytes;
-      }
-      box.in_message = box.message.bytes.size() < box.length;
-      if (!box.in_message) {
+      if (!box.in_message && !is_off(from)) {
         return std::move(box.message);
       }
     }
@@ -327,6 +329,20 @@ class MpiCommunicator final : public Communicator {
       let_go(box.under_way, failed_in_);
     }
     return std::nullopt;
+  }
+
+  void add(const IncomingPiece& piece, int from, InBox& box) {
+    if (box.in_message) {
+      box.message.bytes += piece.bytes;
+    } else if (piece.bytes.size() < kHead) {
+      cut_off(from);
+    } else {
+      std::memcpy(&box.length, piece.bytes.data(), kHead);
+      box.message = {from, piece.tag, {}};
+      box.message.bytes.reserve(box.length);
+      box.message.bytes.append(piece.bytes, kHead);
+    }
+    box.in_message = box.message.bytes.size() < box.length;
   }
 
   int rank_ = 0;
@@ -341,13 +357,16 @@ class MpiCommunicator final : public Communicator {
   std::vector<bool> cut_off_;
 };
 
-// Ranks of one host need no network: looking for one takes most of Open MPI's start. What the user has set stays.
-void choose_transport() {
+// Ranks of one host need no network: looking for one takes most of Open MPI's start. Nor need they wait for each other
+// at the end, where one may be missing: the farm has them come to it together if it can, and a launcher that finds one
+// killed in that barrier may hang or crash (Open MPI 4.1.4 with PMIx 4.2.2). What the user has set stays.
+void choose_for_one_host() {
   const char* all = std::getenv("OMPI_COMM_WORLD_SIZE");
   const char* here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
   if (all != nullptr && here != nullptr && std::strcmp(all, here) == 0) {
     setenv("OMPI_MCA_pml", "ob1", 0);
     setenv("OMPI_MCA_btl", "self,vader", 0);
+    setenv("OMPI_MCA_async_mpi_finalize", "1", 0);
   }
 }
 
@@ -361,7 +380,7 @@ int spincat_mpi_plugin_version() {
 }
 
 spincat::Communicator* spincat_join_ranks() {
-  spincat::choose_transport();
+  spincat::choose_for_one_host();
   int provided = 0;
   if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided) != MPI_SUCCESS ||
       provided < MPI_THREAD_SERIALIZED) {

@@ -242,6 +242,7 @@ void add_source_options(CLI::App& command, CameraArguments& a) {
   command.add_flag("--realtime", a.real_time,
                    "Take frames in their own time, and drop those that come while another is looked at");
   command.add_flag("--loop", a.frames.loop, "After the last frame begin again");
+  add_growth_option(command, a.frames.limits);
 }
 
 }  // namespace

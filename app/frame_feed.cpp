@@ -1,5 +1,6 @@
 #include "frame_feed.h"
 
+#include <algorithm>
 #include <atomic>
 #include <utility>
 
@@ -12,6 +13,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kMostFailures = 10;               // in a row
+constexpr double kLongest = 1e9;                // seconds of a recording
 constexpr std::chrono::milliseconds kWait(50);  // so long Ctrl-C waits for a frame
 
 // Reads one frame after the other and counts them.
@@ -93,7 +95,8 @@ class NewestFrames : public FrameFeed {
       }
       if (frame->error.empty()) {
         first = first.value_or(frame->frame.time);
-        const std::chrono::duration<double> offset(frame->frame.time - *first);
+        // A list may name any time.
+        const std::chrono::duration<double> offset(std::clamp(frame->frame.time - *first, -kLongest, kLongest));
         wait_until(start + std::chrono::duration_cast<Clock::duration>(offset), stop);
       }
       dropped_ += latest_.put(std::move(*frame)) ? 1 : 0;

@@ -46,6 +46,14 @@ void override(T& setting, const std::optional<T>& wanted) {
   }
 }
 
+void add_limit(CLI::App& command, const char* name, std::size_t& limit, std::size_t most, const char* help) {
+  command.add_option(name, limit, help)
+      ->group("Limits while reading")
+      ->check(CLI::Range(std::size_t{1}, most))
+      ->type_name("N")
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void RunOptions::add_to(CLI::App& command) {
@@ -116,17 +124,14 @@ void DatasetArguments::add_to(CLI::App& command, bool required) {
 }
 
 void add_limit_options(CLI::App& command, ReadLimits& limits) {
-  const auto add = [&](const char* name, std::size_t& limit, std::size_t most, const char* help) {
-    command.add_option(name, limit, help)
-        ->group("Limits while reading")
-        ->check(CLI::Range(std::size_t{1}, most))
-        ->type_name("N")
-        ->capture_default_str();
-  };
-  add("--max-points", limits.max_points, 4'294'967'295, "Points or vertices of an object");
-  add("--max-triangles", limits.max_triangles, 1'000'000'000'000, "Triangles of an object");
-  add("--max-growth", limits.max_growth, 1'000'000,
-      "Bytes of memory for each byte of a file, where it packs or repeats what it holds");
+  add_limit(command, "--max-points", limits.max_points, 4'294'967'295, "Points or vertices of an object");
+  add_limit(command, "--max-triangles", limits.max_triangles, 1'000'000'000'000, "Triangles of an object");
+  add_growth_option(command, limits);
+}
+
+void add_growth_option(CLI::App& command, ReadLimits& limits) {
+  add_limit(command, "--max-growth", limits.max_growth, 1'000'000,
+            "Bytes of memory for each byte of a file, where it packs or repeats what it holds");
 }
 
 std::string limits_text(const ReadLimits& limits) {

@@ -43,6 +43,9 @@ struct DatasetArguments {
 // How large an object may be: what read_object refuses otherwise.
 void add_limit_options(CLI::App& command, ReadLimits& limits);
 
+// The same for frames, whose files hold one picture each.
+void add_growth_option(CLI::App& command, ReadLimits& limits);
+
 // The limits as text, for the identity of a journal.
 std::string limits_text(const ReadLimits& limits);
 

@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 #include <lodepng.h>
+#include <zlib.h>
 
 #include <string>
 #include <vector>
 
 #include "support/expect_error.h"
+#include "support/png_bytes.h"
 
 namespace spincat {
 namespace {
@@ -51,6 +53,49 @@ TEST(DepthPng, RefusesWhatIsNoDepthPicture) {
               decode_depth_png({reinterpret_cast<char*>(colours.data()), colours.size()}, 1000.0);
             }).find("colours"),
             std::string::npos);
+}
+
+std::string packed(const std::string& pixels) {
+  std::string bytes(compressBound(pixels.size()), '\0');
+  uLongf length = bytes.size();
+  compress(reinterpret_cast<Bytef*>(bytes.data()), &length, reinterpret_cast<const Bytef*>(pixels.data()),
+           pixels.size());
+  bytes.resize(length);
+  return bytes;
+}
+
+TEST(DepthPng, UnpacksNoMoreThanThePictureTakes) {
+  using namespace std::string_literals;
+  const std::string line = "\0\1\0\2\0"s;  // no filter, two pixels
+  const std::string good = test::png_file(2, 2, 16, 0, test::png_chunk("IDAT", packed(line + line)));
+  EXPECT_EQ(decode_depth_png(good, 256.0).at(1, 1), 2.0F);
+  const std::string more = packed(line + line + std::string(100'000, '\0'));
+  EXPECT_NE(input_error([&] {
+              decode_depth_png(test::png_file(2, 2, 16, 0, test::png_chunk("IDAT", more)), 256.0);
+            }).find("larger than"),
+            std::string::npos);
+}
+
+TEST(DepthPng, ReadsPixelsOfEveryDepthInterlacedOrNot) {
+  using namespace std::string_literals;
+  // 1 x 1: the first of Adam7's passes has the only pixel
+  for (const char interlaced : {0, 1}) {
+    EXPECT_EQ(decode_depth_png(test::png_file(1, 1, 16, interlaced, test::png_chunk("IDAT", packed("\0\2\1"s))), 1.0)
+                  .at(0, 0),
+              513.0F);
+    EXPECT_EQ(
+        decode_depth_png(test::png_file(1, 1, 1, interlaced, test::png_chunk("IDAT", packed("\0\x80"s))), 1.0).at(0, 0),
+        255.0F);
+  }
+}
+
+TEST(DepthPng, RefusesLargePicturesInSmallFiles) {
+  const DepthImage flat(4'096, 1'024);
+  const std::string bytes = encode_depth_png(flat, 1000.0);
+  EXPECT_NE(input_error([&] { decode_depth_png(bytes, 1000.0); }).find("--max-growth"), std::string::npos);
+  ReadLimits raised;
+  raised.max_growth = 10'000;
+  EXPECT_EQ(decode_depth_png(bytes, 1000.0, raised).width, 4'096);
 }
 
 }  // namespace

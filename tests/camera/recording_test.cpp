@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "spincat/camera/calibration.h"
+#include "spincat/camera/depth_list.h"
 #include "spincat/camera/depth_png.h"
 #include "spincat/camera/frame_source.h"
 #include "spincat/io/file.h"
@@ -65,6 +66,29 @@ TEST(Recording, TakesOrderAndTimesFromTumsList) {
   EXPECT_EQ(first->time, 10.5);
   EXPECT_EQ(source->next()->time, 10.75);
   EXPECT_FALSE(source->next());
+}
+
+TEST(Recording, TakesNamesAsTheListGivesThem) {
+  const FrameList frames = parse_depth_list("# time file\r\n\n 1e1\ta#1.png and more\r\n-0.5 /b.png");
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[0].file, "a#1.png");
+  EXPECT_EQ(frames[0].time, 10.0);
+  EXPECT_EQ(frames[1].file, "/b.png");
+  EXPECT_EQ(frames[1].time, -0.5);
+}
+
+TEST(Recording, RefusesListsThatNameNoTimeOrNoFile) {
+  EXPECT_EQ(input_error([] { parse_depth_list("1 a.png\n2\n"); }), "line 2: expected a file behind the time");
+  EXPECT_EQ(input_error([] { parse_depth_list("\nsoon a.png\n"); }), "line 2: expected a time, found 'soon'");
+  EXPECT_NE(input_error([] { parse_depth_list("1e999 a.png\n"); }), "no error");
+  EXPECT_NE(input_error([] { parse_depth_list("nan a.png\n"); }), "no error");
+}
+
+TEST(Recording, NamesTheListThatItRefuses) {
+  const TempDir dir;
+  write_file_atomically(dir.path() / "depth.txt", "1 a.png\nnext b.png\n");
+  const std::string error = input_error([&] { open_recording(dir.path(), {}); });
+  EXPECT_NE(error.find("depth.txt: line 2"), std::string::npos) << error;
 }
 
 TEST(Recording, GoesOnAfterAFrameThatCannotBeRead) {
@@ -189,12 +213,14 @@ TEST(Calibration, SaysWhatIsWrong) {
   const std::string good = "fx 525\nfy 525\ncx 319.5\n";
   EXPECT_EQ(input_error([&] { parse_calibration(good); }), "does not give cy");
   EXPECT_EQ(input_error([&] { parse_calibration(good + "cy half\n"); }),
-            "line 4: expected a name and a number, as in \"fx 525\"");
-  EXPECT_NE(input_error([&] { parse_calibration(good + "cy 1\nfocus 3\n"); }).find("'focus' is not known"),
+            "line 4: expected a number behind the name, as in \"fx 525\", found 'half'");
+  EXPECT_EQ(input_error([&] { parse_calibration(good + "cy 1 2\n"); }),
+            "line 4: expected the end of the line, found '2'");
+  EXPECT_NE(input_error([&] { parse_calibration(good + "cy 1\nfocus 3\n"); }).find("line 5: 'focus' is not known"),
             std::string::npos);
   EXPECT_NE(input_error([&] { parse_calibration("fx 0\nfy 525\ncx 1\ncy 1\n"); }).find("fx 0 is out of range"),
             std::string::npos);
-  EXPECT_NE(input_error([&] { parse_calibration(good + "cy 1\nunits_per_metre nan\n"); }).find("out of range"),
+  EXPECT_NE(input_error([&] { parse_calibration(good + "cy 1\nunits_per_metre 0\n"); }).find("out of range"),
             std::string::npos);
 }
 

@@ -1,4 +1,4 @@
-// Counts what the test program takes by new, so that limits on memory can be tested without a sanitizer.
+// Counts the memory that the program takes, its libraries included, so that limits on it can be tested.
 #pragma once
 
 #include <cstdint>

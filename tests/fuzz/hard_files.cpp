@@ -6,6 +6,8 @@
 #include <ostream>
 #include <string_view>
 
+#include "support/png_bytes.h"
+
 namespace spincat::test {
 namespace {
 
@@ -111,14 +113,6 @@ std::string chain_gltf(std::size_t size) {
   return text + "]}";
 }
 
-std::string big_endian(std::uint32_t value) {
-  std::string bytes;
-  for (int shift = 24; shift >= 0; shift -= 8) {
-    bytes += static_cast<char>(value >> shift & 0xFF);
-  }
-  return bytes;
-}
-
 std::string cbor_array(std::size_t size, std::string_view item) {
   const auto items = static_cast<std::uint32_t>(size / item.size());
   std::string text = "\x9A" + big_endian(items);
@@ -143,6 +137,64 @@ std::string short_records(std::size_t size) {
     journal += with_checksum(as_bytes(i) + as_bytes(i) + text(""));
   }
   return journal;
+}
+
+// Zeros, packed as well as can be, of about `size` packed bytes: a megabyte of them again and again.
+std::string packed_zeros(std::size_t size) {
+  constexpr std::size_t kEach = 1 << 20;
+  std::string zeros(kEach, '\0');
+  std::string packed(compressBound(kEach) + 100, '\0');
+  z_stream stream{};
+  deflateInit(&stream, Z_BEST_COMPRESSION);
+  stream.next_in = reinterpret_cast<Bytef*>(zeros.data());
+  stream.avail_in = kEach;
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  deflate(&stream, Z_FULL_FLUSH);
+  packed.resize(packed.size() - stream.avail_out);
+  deflateEnd(&stream);
+  constexpr std::size_t kZlibHead = 2;
+  return repeated(size, packed.substr(0, kZlibHead), std::string_view(packed).substr(kZlibHead));
+}
+
+std::string kinect_png(const std::string& chunks) {
+  return png_file(640, 480, 16, 0, chunks);
+}
+
+// A picture of one depth, as large as may be read from so many bytes; most of them are of no use.
+std::string flat_png(std::size_t size) {
+  constexpr std::uint32_t kHeight = 3'000;
+  const auto width = static_cast<std::uint32_t>((19 * size + 15'000'000) / 8 / kHeight);
+  const std::string pixels((2 * std::size_t{width} + 1) * kHeight, '\0');
+  std::string packed(compressBound(pixels.size()), '\0');
+  uLongf length = packed.size();
+  compress2(reinterpret_cast<Bytef*>(packed.data()), &length, reinterpret_cast<const Bytef*>(pixels.data()),
+            pixels.size(), Z_BEST_SPEED);
+  packed.resize(length);
+  const std::size_t rest = size - std::min(size, packed.size());
+  return png_file(width, kHeight, 16, 0, png_chunk("IDAT", packed) + png_chunk("xxXx", std::string(rest, 'x')));
+}
+
+std::vector<Hard> recordings() {
+  return {
+      {"png", "a flat picture", flat_png},
+      {"png", "more pixels than there are",
+       [](std::size_t size) { return kinect_png(png_chunk("IDAT", packed_zeros(size))); }},
+      {"png", "packed texts",
+       [](std::size_t size) {
+         const std::string text = png_chunk("zTXt", "a\0\0"s + packed_zeros(10'000));
+         return kinect_png(repeated(size, "", text));
+       }},
+      {"png", "a packed profile",
+       [](std::size_t size) { return kinect_png(png_chunk("iCCP", "a\0\0"s + packed_zeros(size))); }},
+      repeats("frames", "short names", "", "0 a\n"),
+      repeats("frames", "names", "", "1305031102.160407 depth/1305031102.160407.png\n"),
+      repeats("frames", "comments", "", "#\n"),
+      repeats("frames", "a long name", "0 ", "a"),
+      repeats("camera", "numbers", "", "fx 1\n"),
+      repeats("camera", "a long name", "", "a"),
+      repeats("camera", "a long number", "fx ", "1"),
+  };
 }
 
 const std::string kPlyHead = "ply\nformat ascii 1.0\n";
@@ -250,7 +302,7 @@ std::vector<Hard> lists_and_records() {
 
 std::vector<Hard> hard_files() {
   std::vector<Hard> all = object_files();
-  for (const auto& more : {gltf_files(), lists_and_records()}) {
+  for (const auto& more : {gltf_files(), lists_and_records(), recordings()}) {
     all.insert(all.end(), more.begin(), more.end());
   }
   return all;

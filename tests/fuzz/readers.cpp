@@ -12,6 +12,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "spincat/camera/calibration.h"
+#include "spincat/camera/depth_list.h"
+#include "spincat/camera/depth_png.h"
 #include "spincat/dataset/category_map.h"
 #include "spincat/dataset/dataset.h"
 #include "spincat/error.h"
@@ -24,6 +27,7 @@
 #include "spincat/pipeline/named_settings.h"
 #include "spincat/pipeline/settings_json.h"
 #include "spincat/pipeline/sweep_journal.h"
+#include "support/png_bytes.h"
 
 namespace spincat::test {
 namespace {
@@ -178,6 +182,30 @@ void read_settings(std::string_view bytes, Refusals& refusals) {
   attempt([&] { read_settings_text(bytes); }, refusals);
 }
 
+// A picture with right checksums: its width, height, bits and way of interlacing, a byte each, and then its packed
+// pixels.
+std::string as_png(std::string_view bytes) {
+  constexpr std::size_t kHead = 4;
+  std::string head(bytes.substr(0, kHead));
+  head.resize(kHead);
+  const auto side = [&](std::size_t i) { return std::uint32_t{static_cast<unsigned char>(head[i])}; };
+  return png_file(side(0), side(1), head[2], head[3], png_chunk("IDAT", bytes.substr(std::min(kHead, bytes.size()))));
+}
+
+void read_png(std::string_view bytes, Refusals& refusals) {
+  for (const std::string& all : {std::string(bytes), as_png(bytes)}) {
+    attempt([&] { decode_depth_png(all, 1000.0); }, refusals);
+  }
+}
+
+void read_frames(std::string_view bytes, Refusals& refusals) {
+  attempt([&] { parse_depth_list(bytes); }, refusals);
+}
+
+void read_camera(std::string_view bytes, Refusals& refusals) {
+  attempt([&] { parse_calibration(bytes); }, refusals);
+}
+
 using Reader = std::pair<std::string_view, void (*)(std::string_view, Refusals&)>;
 
 constexpr std::array kReaders = {Reader{"off", read_object_file<io::read_off>},
@@ -192,7 +220,10 @@ constexpr std::array kReaders = {Reader{"off", read_object_file<io::read_off>},
                                  Reader{"model", read_model_file},
                                  Reader{"journal", read_journal},
                                  Reader{"sweep", read_sweep},
-                                 Reader{"settings", read_settings}};
+                                 Reader{"settings", read_settings},
+                                 Reader{"png", read_png},
+                                 Reader{"frames", read_frames},
+                                 Reader{"camera", read_camera}};
 
 }  // namespace
 

@@ -7,13 +7,15 @@
 
 namespace spincat::test {
 
-// off, obj, ply, stl, pcd, xyz, gltf, csv, cla, model, journal, sweep, settings
+// off, obj, ply, stl, pcd, xyz, gltf, csv, cla, model, journal, sweep, settings, png, frames (TUM's depth.txt), camera
+// (camera.txt)
 const std::vector<std::string>& reader_names();
 
 // Hands the bytes to a reader; what it said where it refused them, nothing where it read them. Some are read twice:
 // model and journal also as the content of a file whose checksum is right, as nothing that changes bytes at random
-// would ever get past it; pcd also as a picture, csv also as a map of classes. journal and sweep are added to and read
-// once more. Throws std::logic_error when the reader breaks a promise, and whatever it throws but InputError.
+// would ever get past it; pcd also as a picture, png also as the pixels of one, csv also as a map of classes. journal
+// and sweep are added to and read once more. Throws std::logic_error when the reader breaks a promise, and whatever it
+// throws but InputError.
 std::vector<std::string> read_as(std::string_view reader, std::string_view bytes);
 
 }  // namespace spincat::test

@@ -26,9 +26,14 @@ std::vector<fs::path> files_in(const fs::path& folder) {
 }
 
 // What is read in two ways is refused in one of them, and the objects that a list names are not there.
-const std::vector<const char*> kByNature = {
-    "make up no picture",    "the header line names no column", "no object is left",
-    "is not a spincat file", "its content is not valid CBOR",   "is no journal of spincat"};
+const std::vector<const char*> kByNature = {"make up no picture",
+                                            "the header line names no column",
+                                            "no object is left",
+                                            "is not a spincat file",
+                                            "its content is not valid CBOR",
+                                            "is no journal of spincat",
+                                            "it's no PNG or corrupted",
+                                            "zlib header"};
 
 class Fuzzed : public testing::TestWithParam<std::string> {
  protected:

@@ -1,44 +1,35 @@
 #include "spincat/camera/calibration.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <charconv>
+#include <algorithm>
+#include <array>
 #include <map>
 #include <string>
 
 #include "spincat/error.h"
 #include "spincat/io/file.h"
+#include "spincat/io/text_cursor.h"
 
 namespace spincat {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kSpace = " \t\r";
-  const std::size_t first = text.find_first_not_of(kSpace);
-  return first == std::string_view::npos ? std::string_view{}
-                                         : text.substr(first, text.find_last_not_of(kSpace) - first + 1);
-}
-
 // The numbers of the text by their names.
 std::map<std::string, double, std::less<>> numbers_of(std::string_view text) {
+  static constexpr std::array<std::string_view, 7> kNames = {"fx",    "fy",    "cx", "cy", "units_per_metre",
+                                                             "width", "height"};
   std::map<std::string, double, std::less<>> numbers;
-  int line_number = 0;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = trimmed(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-    ++line_number;
-    if (line.empty() || line.front() == '#') {
-      continue;
+  io::TextCursor words(text);
+  while (words.word_follows()) {
+    const std::string_view name = words.word();
+    if (std::ranges::find(kNames, name) == kNames.end()) {
+      words.fail(fmt::format("{} is not known (one of {})", io::in_quotes(name), fmt::join(kNames, ", ")));
     }
-    const std::size_t space = std::min(line.find_first_of(" \t"), line.size());
-    const std::string_view value = trimmed(line.substr(space));
-    double number = 0.0;
-    const auto [rest, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-    if (error != std::errc{} || rest != value.data() + value.size()) {
-      throw InputError(fmt::format("line {}: expected a name and a number, as in \"fx 525\"", line_number));
+    numbers[std::string(name)] = words.finite_number("a number behind the name, as in \"fx 525\"");
+    if (words.word_on_line()) {
+      words.fail("expected the end of the line, found " + io::in_quotes(words.word()));
     }
-    numbers[std::string(line.substr(0, space))] = number;
   }
   return numbers;
 }
@@ -54,7 +45,7 @@ std::optional<int> pixels(std::string_view name, double value) {
 
 CameraCalibration parse_calibration(std::string_view text) {
   CameraCalibration result;
-  std::map<std::string, double, std::less<>> numbers = numbers_of(text);
+  const auto numbers = numbers_of(text);
   for (const auto& [name, to] : {std::pair{"fx", &result.intrinsics.fx},
                                  {"fy", &result.intrinsics.fy},
                                  {"cx", &result.intrinsics.cx},
@@ -64,7 +55,6 @@ CameraCalibration parse_calibration(std::string_view text) {
       throw InputError(fmt::format("does not give {}", name));
     }
     *to = found->second;
-    numbers.erase(found);
   }
   for (const auto& [name, value] : numbers) {
     if (name == "units_per_metre") {
@@ -73,8 +63,6 @@ CameraCalibration parse_calibration(std::string_view text) {
       result.width = pixels(name, value);
     } else if (name == "height") {
       result.height = pixels(name, value);
-    } else {
-      throw InputError(fmt::format("'{}' is not known (one of fx, fy, cx, cy, units_per_metre, width, height)", name));
     }
   }
   if (!(result.units_per_metre >= 1e-3 && result.units_per_metre <= 1e9)) {

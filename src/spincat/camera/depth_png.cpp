@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <memory>
 
 #include "spincat/error.h"
 
@@ -12,6 +15,8 @@ namespace spincat {
 namespace {
 
 constexpr unsigned kMostPixels = 8'192;  // along a side
+constexpr std::uint64_t kBytesEach = 8;  // the most that a pixel takes while it is decoded: twice raw, then as a float
+constexpr std::size_t kMostProfile = 1 << 20;  // bytes of a colour profile, which nobody wants
 
 void check(unsigned error) {
   if (error != 0) {
@@ -19,9 +24,32 @@ void check(unsigned error) {
   }
 }
 
+struct Free {
+  void operator()(unsigned char* memory) const { std::free(memory); }
+};
+using Raw = std::unique_ptr<unsigned char[], Free>;
+
+// The pixels as grey numbers of `bytes_each` bytes. No more is unpacked than a picture of this size can need: what is
+// packed may be a thousand times as large.
+Raw decode_pixels(std::string_view bytes, unsigned width, unsigned height, unsigned bytes_each) {
+  constexpr std::size_t kFilters = 3;  // a byte before each line; interlaced, there are twice as many lines
+  lodepng::State state;
+  state.info_raw.colortype = LCT_GREY;
+  state.info_raw.bitdepth = 8 * bytes_each;
+  state.decoder.read_text_chunks = 0;
+  state.decoder.max_icc_size = kMostProfile;
+  state.decoder.zlibsettings.max_output_size = (std::size_t{width} * bytes_each + kFilters) * (height + 1);
+  unsigned char* raw = nullptr;
+  const unsigned error =
+      lodepng_decode(&raw, &width, &height, &state, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+  Raw pixels(raw);
+  check(error);
+  return pixels;
+}
+
 }  // namespace
 
-DepthImage decode_depth_png(std::string_view bytes, double units_per_metre) {
+DepthImage decode_depth_png(std::string_view bytes, double units_per_metre, const ReadLimits& limits) {
   const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
   lodepng::State state;
   unsigned width = 0;
@@ -33,9 +61,9 @@ DepthImage decode_depth_png(std::string_view bytes, double units_per_metre) {
   if (width > kMostPixels || height > kMostPixels) {
     throw InputError(fmt::format("is {} x {} pixels large (at most {} x {})", width, height, kMostPixels, kMostPixels));
   }
+  check_growth(kBytesEach * width * height, bytes.size(), limits);
   const unsigned bytes_each = state.info_png.color.bitdepth == 16 ? 2 : 1;
-  std::vector<unsigned char> raw;
-  check(lodepng::decode(raw, width, height, data, bytes.size(), LCT_GREY, 8 * bytes_each));
+  const Raw raw = decode_pixels(bytes, width, height, bytes_each);
   DepthImage image(static_cast<int>(width), static_cast<int>(height));
   for (std::size_t i = 0; i < image.depth.size(); ++i) {
     const unsigned units = bytes_each == 2 ? raw[2 * i] * 256U + raw[2 * i + 1] : raw[i];

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "spincat/camera/depth_image.h"
+#include "spincat/io/read_limits.h"
 
 namespace spincat {
 
@@ -37,6 +38,7 @@ struct FrameSettings {
                                                      // (640 x 480)
   std::optional<double> units_per_metre;             // of the numbers in depth pictures; else the calibration's
   bool loop = false;                                 // after the last frame comes the first
+  ReadLimits limits;                                 // of each frame's file
 };
 
 // A recording: a folder of grey PNG files in the order of their names (of TUM's depth.txt where there is one, which

@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <locale>
-#include <sstream>
 #include <utility>
 #include <vector>
 
 #include "spincat/camera/calibration.h"
+#include "spincat/camera/depth_list.h"
 #include "spincat/camera/depth_png.h"
 #include "spincat/camera/frame_source.h"
 #include "spincat/error.h"
@@ -22,11 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kFramesPerSecond = 30.0;  // where a recording tells no times
-
-struct Entry {
-  fs::path file;
-  double time;
-};
 
 bool has_extension(const fs::path& file, std::string_view extension) {
   std::string own = file.extension().string();
@@ -64,94 +58,90 @@ bool counts_before(const std::string& a, const std::string& b) {
   return a.size() - i != b.size() - j ? a.size() - i < b.size() - j : a < b;
 }
 
-// TUM's list: lines "time file", # before what says nothing.
-std::vector<Entry> listed_files(const fs::path& list) {
-  std::vector<Entry> entries;
-  std::istringstream text(read_file(list));
-  text.imbue(std::locale::classic());
-  int number = 0;
-  for (std::string line; std::getline(text, line);) {
-    ++number;
-    if (line.find_first_not_of(" \t\r") == std::string::npos || line.front() == '#') {
-      continue;
-    }
-    std::istringstream words(line);
-    words.imbue(std::locale::classic());
-    double time = 0.0;
-    std::string file;
-    if (!(words >> time >> file)) {
-      throw InputError(list.string(), fmt::format("line {}: expected a time and a file", number));
-    }
-    entries.push_back({list.parent_path() / file, time});
+FrameList listed_files(const fs::path& list) {
+  try {
+    return parse_depth_list(read_file(list));
+  } catch (const InputError& error) {
+    throw error.file().empty() ? InputError(list.string(), error.problem()) : error;
   }
-  return entries;
 }
 
-std::vector<Entry> files_in(const fs::path& folder) {
+FrameList files_in(const fs::path& folder) {
   if (fs::exists(folder / "depth.txt")) {
     return listed_files(folder / "depth.txt");
   }
-  std::vector<fs::path> pictures;
-  std::vector<fs::path> clouds;
+  std::vector<std::string> pictures;
+  std::vector<std::string> clouds;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (has_extension(entry.path(), ".png")) {
-      pictures.push_back(entry.path());
+      pictures.push_back(entry.path().filename().string());
     } else if (has_extension(entry.path(), ".pcd")) {
-      clouds.push_back(entry.path());
+      clouds.push_back(entry.path().filename().string());
     }
   }
-  std::vector<fs::path>& files = pictures.empty() ? clouds : pictures;
-  std::ranges::sort(files, [](const fs::path& a, const fs::path& b) {
-    return counts_before(a.filename().string(), b.filename().string());
-  });
-  std::vector<Entry> entries;
-  for (fs::path& file : files) {
-    entries.push_back({std::move(file), static_cast<double>(entries.size()) / kFramesPerSecond});
+  std::vector<std::string>& files = pictures.empty() ? clouds : pictures;
+  std::ranges::sort(files, counts_before);
+  FrameList frames;
+  for (std::string& file : files) {
+    frames.push_back({std::move(file), static_cast<double>(frames.size()) / kFramesPerSecond});
   }
-  return entries;
+  return frames;
 }
 
-// The line of least squares through places (at, value): value = slope at + offset.
+// The line of least squares through places (at, value): value = slope at + offset. `for_each_place` calls what it is
+// given with each place; twice, so that no place need be kept.
 struct Line {
   double slope;
   double offset;
 };
 
-Line fitted_line(const std::vector<std::pair<double, double>>& places) {
+template <class ForEachPlace>
+Line fitted_line(std::size_t places, const ForEachPlace& for_each_place) {
   double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
-  const auto n = static_cast<double>(places.size());
-  for (const auto& [at, value] : places) {
+  const auto n = static_cast<double>(places);
+  for_each_place([&](double at, double value) {
     x += at / n;
     y += value / n;
-  }
-  for (const auto& [at, value] : places) {
+  });
+  for_each_place([&](double at, double value) {
     xx += (at - x) * (at - x);
     xy += (at - x) * (value - y);
-  }
+  });
   const double slope = xy / xx;
   return {slope, y - slope * x};
+}
+
+// Calls `see` with each point that was measured, its column and its row.
+template <class See>
+void for_each_measured(const OrganizedCloud& cloud, const See& see) {
+  std::size_t i = 0;
+  for (int v = 0; v < cloud.height; ++v) {
+    for (int u = 0; u < cloud.width; ++u) {
+      const Vec3& p = cloud.points[i++];
+      if (p.allFinite() && p.z() > 0.0) {
+        see(p, u, v);
+      }
+    }
+  }
 }
 
 // An organized cloud as the picture that it was made of: u = fx x / z + cx.
 Frame frame_of(const OrganizedCloud& cloud) {
   Frame frame;
   frame.image = DepthImage(cloud.width, cloud.height);
-  std::vector<std::pair<double, double>> across;
-  std::vector<std::pair<double, double>> down;
-  for (int v = 0; v < cloud.height; ++v) {
-    for (int u = 0; u < cloud.width; ++u) {
-      const Vec3& p = cloud.points[frame.image.index(u, v)];
-      if (p.allFinite() && p.z() > 0.0) {
-        frame.image.depth[frame.image.index(u, v)] = static_cast<float>(p.z());
-        across.emplace_back(p.x() / p.z(), u);
-        down.emplace_back(p.y() / p.z(), v);
-      }
-    }
-  }
+  std::size_t measured = 0;
+  for_each_measured(cloud, [&](const Vec3& p, int u, int v) {
+    frame.image.depth[frame.image.index(u, v)] = static_cast<float>(p.z());
+    ++measured;
+  });
   constexpr std::size_t kFewest = 10;
-  if (across.size() >= kFewest) {
-    const Line x = fitted_line(across);
-    const Line y = fitted_line(down);
+  if (measured >= kFewest) {
+    const Line x = fitted_line(measured, [&](const auto& see) {
+      for_each_measured(cloud, [&](const Vec3& p, int u, int) { see(p.x() / p.z(), u); });
+    });
+    const Line y = fitted_line(measured, [&](const auto& see) {
+      for_each_measured(cloud, [&](const Vec3& p, int, int v) { see(p.y() / p.z(), v); });
+    });
     frame.intrinsics = {x.slope, y.slope, x.offset, y.offset};
     frame.intrinsics.validate();
   }
@@ -160,42 +150,47 @@ Frame frame_of(const OrganizedCloud& cloud) {
 
 class Recording : public FrameSource {
  public:
-  Recording(std::vector<Entry> files, const CameraCalibration& calibration, bool loop)
-      : files_(std::move(files)), calibration_(calibration), loop_(loop) {}
+  Recording(fs::path folder, FrameList frames, const CameraCalibration& calibration, const FrameSettings& settings)
+      : folder_(std::move(folder)),
+        frames_(std::move(frames)),
+        calibration_(calibration),
+        limits_(settings.limits),
+        loop_(settings.loop) {}
 
   std::optional<Frame> next() override {
-    if (at_ == files_.size() && !loop_) {
+    if (at_ == frames_.size() && !loop_) {
       return {};
     }
-    const Entry& entry = files_[at_ % files_.size()];
-    const std::size_t round = at_++ / files_.size();
+    const ListedFrame& listed = frames_[at_ % frames_.size()];
+    const std::size_t round = at_++ / frames_.size();
+    const fs::path file = folder_ / listed.file;
     try {
-      Frame frame = read(entry.file);
-      frame.name = entry.file.filename().string();
-      frame.time = entry.time + static_cast<double>(round) * length();
+      Frame frame = read(file);
+      frame.name = file.filename().string();
+      frame.time = listed.time + static_cast<double>(round) * length();
       return frame;
     } catch (const InputError& error) {
-      throw error.file().empty() ? InputError(entry.file.string(), error.problem()) : error;
+      throw error.file().empty() ? InputError(file.string(), error.problem()) : error;
     }
   }
 
   void skip() override {
-    if (at_ < files_.size() || loop_) {
+    if (at_ < frames_.size() || loop_) {
       ++at_;
     }
   }
 
  private:
   // Seconds from the first frame to the first of the next round.
-  double length() const { return files_.back().time - files_.front().time + 1.0 / kFramesPerSecond; }
+  double length() const { return frames_.back().time - frames_.front().time + 1.0 / kFramesPerSecond; }
 
   Frame read(const fs::path& file) const {
     const std::string bytes = read_file(file);
     if (has_extension(file, ".pcd")) {
-      return frame_of(read_organized_pcd(bytes));
+      return frame_of(read_organized_pcd(bytes, limits_));
     }
     Frame frame;
-    frame.image = decode_depth_png(bytes, calibration_.units_per_metre);
+    frame.image = decode_depth_png(bytes, calibration_.units_per_metre, limits_);
     frame.intrinsics = calibration_.intrinsics;
     const int width = calibration_.width.value_or(frame.image.width);
     const int height = calibration_.height.value_or(frame.image.height);
@@ -206,8 +201,10 @@ class Recording : public FrameSource {
     return frame;
   }
 
-  std::vector<Entry> files_;
+  fs::path folder_;
+  FrameList frames_;
   CameraCalibration calibration_;
+  ReadLimits limits_;
   bool loop_;
   std::size_t at_ = 0;
 };
@@ -226,21 +223,22 @@ std::unique_ptr<FrameSource> open_recording(const fs::path& place, const FrameSe
     throw InputError(place.string(), "no such file or folder");
   }
   const bool is_folder = fs::is_directory(place);
-  std::vector<Entry> files = is_folder ? files_in(place) : std::vector<Entry>{{place, 0.0}};
-  if (files.empty()) {
+  const fs::path folder = is_folder ? place : place.parent_path();
+  FrameList frames = is_folder ? files_in(place) : FrameList{{place.filename().string(), 0.0}};
+  if (frames.empty()) {
     throw InputError(place.string(), "holds no depth pictures (.png) and no organized clouds (.pcd)");
   }
   CameraCalibration calibration;
   calibration.width = 640;  // a Kinect's: of other cameras there is nothing to be guessed
   calibration.height = 480;
-  const fs::path beside = (is_folder ? place : place.parent_path()) / "camera.txt";
+  const fs::path beside = folder / "camera.txt";
   if (settings.calibration) {
     calibration = read_calibration(*settings.calibration);
   } else if (fs::exists(beside)) {
     calibration = read_calibration(beside);
   }
   calibration.units_per_metre = settings.units_per_metre.value_or(calibration.units_per_metre);
-  return std::make_unique<Recording>(std::move(files), calibration, settings.loop);
+  return std::make_unique<Recording>(folder, std::move(frames), calibration, settings);
 }
 
 }  // namespace spincat

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "spincat/geometry/object.h"
+#include "spincat/io/read_limits.h"
 
 namespace spincat {
 
@@ -16,7 +17,8 @@ struct OrganizedCloud {
 };
 
 // Reads the bytes of a PCD file whose points make up a picture (HEIGHT above 1). Throws InputError (without a file
-// name) when it is none, damaged, or larger than 8,192 x 8,192. Memory stays within a few times the file.
-OrganizedCloud read_organized_pcd(std::string_view bytes);
+// name) when it is none, damaged, larger than 8,192 x 8,192, or packed so well that it would take more memory than
+// limits.max_growth lets a file of its size take.
+OrganizedCloud read_organized_pcd(std::string_view bytes, const ReadLimits& limits = {});
 
 }  // namespace spincat

@@ -325,7 +325,7 @@ Object read_pcd(std::string_view bytes, const ReadLimits& limits) {
 
 namespace spincat {
 
-OrganizedCloud read_organized_pcd(std::string_view bytes) {
+OrganizedCloud read_organized_pcd(std::string_view bytes, const ReadLimits& limits) {
   io::TextCursor text(bytes);
   const io::Header header = io::HeaderReader(text).read();
   constexpr std::uint64_t kLongestSide = 8'192;
@@ -338,7 +338,7 @@ OrganizedCloud read_organized_pcd(std::string_view bytes) {
   }
   OrganizedCloud cloud{static_cast<int>(header.width), static_cast<int>(header.height), {}};
   io::PictureSink sink(cloud.points);
-  io::read_points(header, text, bytes, {}, sink);
+  io::read_points(header, text, bytes, limits, sink);
   return cloud;
 }
 

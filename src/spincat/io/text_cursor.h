@@ -1,4 +1,4 @@
-// Walks through a text file that is wholly in memory, word by word, and knows its line. Private to io.
+// Walks through a text file that is wholly in memory, word by word, and knows its line. Private to the library.
 //
 // Words are separated by blanks; lines end with \n, \r\n or \r; comments run to the end of their line. Nothing here
 // depends on the locale.

@@ -1,7 +1,6 @@
 // Feeds any bytes to one of the readers, over and over (libFuzzer); SPINCAT_READER says to which. Found is whatever is
 // no InputError of one line: a crash, another exception, more memory than 20 times the file and 16 MB, or more than a
 // second of the processor. Prints at the end what the most memory and the longest call were.
-#include <sanitizer/allocator_interface.h>
 #include <time.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "fuzz/counted_memory.h"
 #include "fuzz/readers.h"
 
 namespace {
@@ -21,9 +21,6 @@ constexpr double kMostMilliseconds = 1'000;
 
 const char* reader = nullptr;
 
-// Memory in use since the reader was called, the most there was then, and in all calls. The readers have one thread.
-std::int64_t in_use = 0;
-std::int64_t most = 0;
 std::int64_t most_of_all = 0;
 double longest = 0.0;  // of all calls
 
@@ -32,21 +29,6 @@ double milliseconds() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
-std::int64_t size_of(const volatile void* memory) {
-  return static_cast<std::int64_t>(__sanitizer_get_allocated_size(const_cast<const void*>(memory)));
-}
-
-void allocated(const volatile void* memory, std::size_t) {
-  in_use += size_of(memory);
-  most = std::max(most, in_use);
-}
-
-void freed(const volatile void* memory) {
-  if (memory != nullptr) {
-    in_use -= size_of(memory);
-  }
 }
 
 }  // namespace
@@ -67,7 +49,6 @@ extern "C" int LLVMFuzzerInitialize(int*, char***) {
     std::fputs("\n", stderr);
     std::exit(2);
   }
-  __sanitizer_install_malloc_and_free_hooks(allocated, freed);
   std::atexit([] {
     std::fprintf(stderr, "most memory, in bytes: %lld\n", static_cast<long long>(most_of_all));
     std::fprintf(stderr, "longest, in milliseconds: %.3f\n", longest);
@@ -76,11 +57,11 @@ extern "C" int LLVMFuzzerInitialize(int*, char***) {
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  in_use = 0;
-  most = 0;
+  const spincat::test::CountedMemory memory;
   const double begin = milliseconds();
   spincat::test::read_as(reader, {reinterpret_cast<const char*>(data), size});
   const double taken = milliseconds() - begin;
+  const std::int64_t most = memory.most();
   longest = std::max(longest, taken);
   most_of_all = std::max(most_of_all, most);
   if (most > kMostTimes * static_cast<std::int64_t>(size) + kSpare) {

@@ -74,6 +74,37 @@ TEST(RecordFile, KeepsLargeBlobs) {
   EXPECT_EQ(unpack_record(test::record_bytes("model", 1, content), "model", 1), content);
 }
 
+// Those that stay where they are: the lengths need 0, 1, 2 and 4 bytes of their own.
+TEST(RecordFile, WritesBlobsFromWhereTheyAre) {
+  const test::TempDir dir;
+  for (const std::size_t count : {0, 5, 6, 63, 64, 16'383, 16'384, 5'000'000}) {
+    std::vector<float> numbers(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      numbers[i] = static_cast<float>(i) / 7.0F;
+    }
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(numbers.data());
+    RecordBlobs blobs;
+    const json linked = {{"a", {{"blob", blobs.add(numbers)}, {"n", count}, {"list", {1, 2, "three"}}}},
+                         {"again", blobs.add(numbers)},
+                         {"small", json::binary({1, 2, 3})}};
+    json copied = linked;
+    copied["a"]["blob"] = json::binary({bytes, bytes + numbers.size() * sizeof(float)});
+    copied["again"] = copied["a"]["blob"];
+    write_record(dir / "linked", "model", 1, linked, blobs);
+    EXPECT_TRUE(read_file(dir / "linked") == test::record_bytes("model", 1, copied)) << count;
+  }
+}
+
+TEST(RecordFile, WritesObjectsOfManyMembersAsTheLibraryDoes) {
+  json content;
+  for (int i = 0; i < 300; ++i) {
+    content["m" + std::to_string(i)] = i;
+    const std::string bytes = test::record_bytes("model", 1, content);
+    const std::vector<std::uint8_t> cbor = json::to_cbor(content);
+    ASSERT_EQ(bytes, record_of({reinterpret_cast<const char*>(cbor.data()), cbor.size()})) << i;
+  }
+}
+
 TEST(RecordFile, WritesWhatItPacks) {
   const test::TempDir dir;
   const auto file = dir.write("record", "old");

@@ -117,8 +117,9 @@ class CborCheck {
 };
 
 // Of an item and all in it.
-std::uint64_t memory_of(const json& item, std::size_t level) {
-  if (item.is_discarded() || (item.is_binary() && item.get_binary().has_subtype())) {
+std::uint64_t memory_of(const json& item, std::uint64_t places, std::size_t level) {
+  const bool has_subtype = item.is_binary() && item.get_binary().has_subtype();
+  if (item.is_discarded() || (has_subtype && item.get_binary().subtype() >= places)) {
     throw InputError("cannot be written: its content is not plain CBOR");
   }
   std::uint64_t memory = memory_of_item(item.is_structured() || item.is_string() || item.is_binary());
@@ -129,7 +130,7 @@ std::uint64_t memory_of(const json& item, std::size_t level) {
     throw_too_deep();
   }
   for (const json& inner : item) {
-    memory += memory_of(inner, level + 1) + (item.is_object() ? memory_of_item(true) : 0);
+    memory += memory_of(inner, places, level + 1) + (item.is_object() ? memory_of_item(true) : 0);
   }
   return memory;
 }
@@ -140,8 +141,8 @@ void check_cbor(std::string_view bytes) {
   CborCheck(bytes).run();
 }
 
-std::uint64_t memory_to_read(const json& content) {
-  return memory_of(content, 0);
+std::uint64_t memory_to_read(const json& content, std::uint64_t places) {
+  return memory_of(content, places, 0);
 }
 
 void check_growth(std::uint64_t memory, std::uint64_t bytes) {

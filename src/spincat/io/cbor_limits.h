@@ -12,9 +12,9 @@ namespace spincat {
 // more memory than they are.
 void check_cbor(std::string_view bytes);
 
-// The same before content is written: what reading it will take, and whether that is too much for so many bytes. Throw
-// InputError.
-std::uint64_t memory_to_read(const nlohmann::json& content);
+// The same before content is written: what reading it will take, and whether that is too much for so many bytes.
+// `places` blobs are elsewhere (RecordBlobs). Throw InputError.
+std::uint64_t memory_to_read(const nlohmann::json& content, std::uint64_t places);
 void check_growth(std::uint64_t memory, std::uint64_t bytes);
 
 }  // namespace spincat

@@ -144,22 +144,61 @@ class PieceBuffer : public std::streambuf {
   std::array<char, 1 << 16> gathered_;
 };
 
+// The first bytes of a CBOR item of a major type, with its length in as few bytes as it needs.
+void write_head(std::uint8_t major_type, std::uint64_t length, std::ostream& stream) {
+  constexpr std::uint64_t kWithin = 23;  // the first byte has these itself
+  std::string head(1, static_cast<char>(major_type << 5));
+  if (length <= kWithin) {
+    head[0] = static_cast<char>(head[0] | static_cast<char>(length));
+  } else {
+    int size = 0;  // its logarithm
+    while (size < 3 && length >> (8 << size) != 0) {
+      ++size;
+    }
+    head[0] = static_cast<char>(head[0] | static_cast<char>(kWithin + 1 + static_cast<std::uint64_t>(size)));
+    for (int byte = (1 << size) - 1; byte >= 0; --byte) {
+      head += static_cast<char>(length >> (8 * byte) & 0xFF);
+    }
+  }
+  stream << head;
+}
+
+// As json::to_cbor writes it where the blobs are in it.
+void write_cbor(const json& content, const RecordBlobs& blobs, std::ostream& stream) {
+  constexpr std::uint8_t kBytes = 2;
+  constexpr std::uint8_t kMap = 5;
+  if (RecordBlobs::is_place(content)) {
+    const std::string_view bytes = blobs.bytes(content);
+    write_head(kBytes, bytes.size(), stream);
+    stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  } else if (content.is_object()) {
+    write_head(kMap, content.size(), stream);
+    for (const auto& [name, value] : content.items()) {
+      json::to_cbor(name, stream);
+      write_cbor(value, blobs, stream);
+    }
+  } else {
+    json::to_cbor(content, stream);
+  }
+}
+
 // The content as CBOR, piece by piece. What `take` throws comes through.
-void to_pieces(const json& content, const Take& take) {
+void to_pieces(const json& content, const RecordBlobs& blobs, const Take& take) {
   PieceBuffer buffer(take);
   std::ostream stream(&buffer);
   stream.exceptions(std::ios::badbit | std::ios::failbit);
-  json::to_cbor(content, stream);
+  write_cbor(content, blobs, stream);
   stream.flush();
 }
 
-void pack_pieces(std::string_view kind, std::uint32_t version, const json& content, const Take& take) {
+void pack_pieces(std::string_view kind, std::uint32_t version, const json& content, const RecordBlobs& blobs,
+                 const Take& take) {
   if (!is_kind(kind)) {
     throw InputError(fmt::format("a kind of record is up to {} letters from a to z", kLongestKind));
   }
-  const std::uint64_t memory = memory_to_read(content);
+  const std::uint64_t memory = memory_to_read(content, blobs.size());
   std::uint64_t length = 0;
-  to_pieces(content, [&](std::string_view piece) { length += piece.size(); });
+  to_pieces(content, blobs, [&](std::string_view piece) { length += piece.size(); });
   check_growth(memory, length);
   std::string head(kFileMagic);
   append_little_endian(head, static_cast<std::uint32_t>(kind.size()));
@@ -172,7 +211,7 @@ void pack_pieces(std::string_view kind, std::uint32_t version, const json& conte
     take(piece);
   };
   take_checked(head);
-  to_pieces(content, take_checked);
+  to_pieces(content, blobs, take_checked);
   std::string tail;
   append_little_endian(tail, checksum);
   take(tail);
@@ -180,10 +219,23 @@ void pack_pieces(std::string_view kind, std::uint32_t version, const json& conte
 
 }  // namespace
 
-void write_record(const std::filesystem::path& file, std::string_view kind, std::uint32_t version,
-                  const json& content) {
+json RecordBlobs::add(std::span<const float> numbers) {
+  blobs_.emplace_back(reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes());
+  return json::binary(json::binary_t::container_type(), blobs_.size() - 1);
+}
+
+std::string_view RecordBlobs::bytes(const json& place) const {
+  return blobs_.at(place.get_binary().subtype());
+}
+
+bool RecordBlobs::is_place(const json& value) {
+  return value.is_binary() && value.get_binary().has_subtype();
+}
+
+void write_record(const std::filesystem::path& file, std::string_view kind, std::uint32_t version, const json& content,
+                  const RecordBlobs& blobs) {
   OutputFile out(file);
-  pack_pieces(kind, version, content, [&](std::string_view piece) { out.write(piece); });
+  pack_pieces(kind, version, content, blobs, [&](std::string_view piece) { out.write(piece); });
   out.commit();
 }
 

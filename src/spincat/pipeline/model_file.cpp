@@ -32,11 +32,6 @@ using Json = nlohmann::json;
 constexpr std::size_t kMostCategories = 10'000;
 constexpr std::size_t kMostFeatures = 100'000'000;
 
-Json pack_floats(std::span<const float> values) {
-  const auto* bytes = reinterpret_cast<const std::uint8_t*>(values.data());
-  return Json::binary({bytes, bytes + values.size_bytes()});  // written once: a model may be large
-}
-
 const Json& member(const Json& json, const char* name) {
   const auto at = json.find(name);
   if (at == json.end()) {
@@ -88,23 +83,23 @@ std::vector<std::uint32_t> counts(const Json& json, const char* name, std::size_
 }
 
 template <class Matrix>
-Json pack_matrix(const Matrix& matrix) {
-  return pack_floats({matrix.data(), static_cast<std::size_t>(matrix.size())});
+std::span<const float> numbers_of(const Matrix& matrix) {
+  return {matrix.data(), static_cast<std::size_t>(matrix.size())};
 }
 
-Json judges_to_json(const JudgeList& judges) {
+Json judges_to_json(const JudgeList& judges, RecordBlobs& blobs) {
   Json json = {{"features", judges.seen_length()},
-               {"weights", pack_matrix(judges.weights)},
-               {"bias", pack_matrix(judges.bias)},
+               {"weights", blobs.add(numbers_of(judges.weights))},
+               {"bias", blobs.add(numbers_of(judges.bias))},
                {"support_vectors", judges.support_vectors}};
   if (judges.kernel.kind != KernelKind::linear) {
     json["blocks"] = judges.kernel.block_sizes;
-    json["scale"] = pack_floats(judges.kernel.scale);
-    json["supports"] = pack_matrix(judges.supports);
+    json["scale"] = blobs.add(judges.kernel.scale);
+    json["supports"] = blobs.add(numbers_of(judges.supports));
   }
   if (!judges.codebook.empty()) {
     json["local_size"] = judges.codebook.words.cols();
-    json["codebook"] = pack_matrix(judges.codebook.words);
+    json["codebook"] = blobs.add(numbers_of(judges.codebook.words));
   }
   return json;
 }
@@ -188,11 +183,11 @@ JudgeList judges_from_json(const Json& json, std::size_t categories, KernelKind 
   return judges;
 }
 
-Json familiarity_to_json(const Familiarity& f) {
+Json familiarity_to_json(const Familiarity& f, RecordBlobs& blobs) {
   return {{"labels", f.labels},
-          {"objects", pack_floats({f.objects.data(), static_cast<std::size_t>(f.objects.size())})},
-          {"typical", pack_floats(f.typical)},
-          {"spread", pack_floats(f.spread)}};
+          {"objects", blobs.add(numbers_of(f.objects))},
+          {"typical", blobs.add(f.typical)},
+          {"spread", blobs.add(f.spread)}};
 }
 
 Familiarity familiarity_from_json(const Json& json, std::size_t categories, std::size_t features) {
@@ -265,19 +260,20 @@ Model model_from_json(const Json& json) {
 }  // namespace
 
 void write_model(const std::filesystem::path& file, const Model& model) {
+  RecordBlobs blobs;
   const Json json = {{"settings", settings_to_json(model.settings)},
                      {"categories", model.categories},
-                     {"judges", judges_to_json(model.judges)},
+                     {"judges", judges_to_json(model.judges, blobs)},
                      {"calibration",
                       {{"slope", model.calibration.slope},
                        {"offset", model.calibration.offset},
                        {"familiarity_slope", model.calibration.familiarity_slope}}},
-                     {"familiarity", familiarity_to_json(model.familiarity)},
+                     {"familiarity", familiarity_to_json(model.familiarity, blobs)},
                      {"dataset", model.dataset},
                      {"object_counts", model.object_counts},
                      {"kinds", {model.kinds.meshes, model.kinds.clouds}},
                      {"made_by", model.made_by}};
-  write_record(file, "model", kModelVersion, json);
+  write_record(file, "model", kModelVersion, json, blobs);
 }
 
 Model read_model(const std::filesystem::path& file) {

@@ -73,7 +73,9 @@ JobStart unpack_job_start(Unpacker& fields) {
 }
 
 std::string pack(std::uint32_t job, const TaskResult& result) {
+  constexpr std::size_t kBesidesText = 64;
   return Packer()
+      .reserve(result.file.size() + result.bytes.size() + kBesidesText)
       .add(job)
       .add(static_cast<std::uint64_t>(result.task))
       .add(result.outcome)

@@ -1,6 +1,7 @@
 // Values as bytes, for messages between ranks and for the journal. The ranks of a run have one byte order.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -37,6 +38,12 @@ class Packer {
     return add(std::string_view(reinterpret_cast<const char*>(values.data()), values.size_bytes()));
   }
 
+  // For so many bytes in all: a large message need not grow.
+  Packer& reserve(std::size_t bytes) {
+    bytes_.reserve(bytes);
+    return *this;
+  }
+
   // Bytes to the end: what Unpacker::rest() gives.
   Packer& add_rest(std::string_view bytes) {
     bytes_.append(bytes);
@@ -71,6 +78,18 @@ class Unpacker {
       std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
     }
     return values;
+  }
+
+  // What was packed as a span, into one of the same length. Throws RunError when it has another.
+  template <PlainValue T>
+  void get_values_into(std::span<T> values) {
+    const std::string_view bytes = get_text();
+    if (bytes.size() != values.size_bytes()) {
+      throw RunError("a message between ranks has another length than was expected");
+    }
+    if (!bytes.empty()) {
+      std::memcpy(values.data(), bytes.data(), bytes.size());
+    }
   }
 
   bool empty() const { return left_.empty(); }

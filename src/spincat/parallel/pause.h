@@ -8,8 +8,9 @@ namespace spincat {
 
 // Not at all while something happens, a moment while large messages are on their way (MPI moves them on only while it
 // is called, some megabytes at a time), then longer and longer, up to two milliseconds: a rank that only waits uses a
-// percent or two of a core. Beside threads that work, half a millisecond is the least: each look takes a core from
-// them (2 % of it, with shorter pauses), and whoever works has two tasks (task_farm.cpp), so nobody waits for us.
+// percent or two of a core. Beside threads that work, half a millisecond is the least, and two where no message is on
+// its way: each look takes a core from them (2 % of it, with shorter pauses), and whoever works has tasks enough
+// (task_farm.cpp), so nobody waits for us. A finished task of our own ends the pause.
 class Pause {
  public:
   using Clock = std::chrono::steady_clock;
@@ -29,11 +30,10 @@ class Pause {
       pause_ = kShortest;
       return std::chrono::microseconds(0);
     }
-    const auto least = look.threads_work ? kBesideWork : kShortest;
     if (look.under_way && now - last_ < kTransferPatience) {  // a message to a lost rank never ends
-      return std::max(kTransfer, least);
+      return look.threads_work ? kTransferBesideWork : kTransfer;
     }
-    const auto pause = std::max(pause_, least);
+    const auto pause = look.threads_work ? kLongest : pause_;
     pause_ = std::min(2 * pause, kLongest);
     return pause;
   }
@@ -41,7 +41,7 @@ class Pause {
  private:
   static constexpr std::chrono::microseconds kShortest{20};
   static constexpr std::chrono::microseconds kTransfer{50};
-  static constexpr std::chrono::microseconds kBesideWork{500};
+  static constexpr std::chrono::microseconds kTransferBesideWork{500};
   static constexpr std::chrono::microseconds kLongest{2000};
   static constexpr std::chrono::milliseconds kTransferPatience{20};
   std::chrono::microseconds pause_ = kShortest;

@@ -26,6 +26,9 @@ using Clock = TaskFarm::Clock;
 constexpr int kHere = 0;                // rank 0, as an owner of tasks
 constexpr int kMostRanksToWorkAt = 32;  // with more, rank 0 has enough to do with handing out and delivering
 constexpr std::size_t kTasksAhead = 2;  // a thread has this many tasks: one to do, one to go on with
+// One of another rank has more of short ones: while rank 0 is busy with a result, nobody gives it another.
+constexpr std::size_t kMostTasksAhead = 8;
+constexpr double kSecondsAhead = 0.03;
 constexpr std::chrono::milliseconds kBetweenTicks(50);
 constexpr std::chrono::milliseconds kGreetingPatience(2000);
 constexpr std::chrono::milliseconds kStall(500);  // when we were away so long ourselves, others' silence means nothing
@@ -81,7 +84,7 @@ class TaskFarm::Run {
  private:
   // Bounds the results that wait for their turn, not the tasks under way: these are fewer.
   std::size_t window() const {
-    return std::max<std::size_t>(64, 4 * kTasksAhead * static_cast<std::size_t>(farm_.threads_everywhere()));
+    return std::max<std::size_t>(64, kMostTasksAhead * static_cast<std::size_t>(farm_.threads_everywhere()));
   }
 
   void tick() const {
@@ -265,8 +268,9 @@ class TaskFarm::Run {
     bool handed = false;
     const auto now = Clock::now();
     const TaskBoard::Seconds patience(std::max(1.0, 5.0 * median_.value()));
-    // In turns: the first tasks of a small job must not all queue up at one rank.
-    for (std::size_t turn = 0; turn < kTasksAhead; ++turn) {
+    // In turns: the first tasks of a small job must not all queue up at one rank, nor its last.
+    const std::size_t turns = tasks_ahead();
+    for (std::size_t turn = 0; turn < turns; ++turn) {
       for (std::size_t r = 0; r < farm_.others_.size(); ++r) {
         Rank& rank = farm_.others_[r];
         while (rank.ready && !rank.lost && rank.tasks < (turn + 1) * static_cast<std::size_t>(rank.threads)) {
@@ -279,9 +283,17 @@ class TaskFarm::Run {
           handed = true;
         }
       }
-      handed = hand_out_here((turn + 1) * static_cast<std::size_t>(farm_.threads_), now, patience) || handed;
+      const std::size_t here = std::min(turn + 1, kTasksAhead) * static_cast<std::size_t>(farm_.threads_);
+      handed = hand_out_here(here, now, patience) || handed;
     }
     return handed;
+  }
+
+  // Of a thread of another rank.
+  std::size_t tasks_ahead() const {
+    const double tasks = median_.value() > 0.0 ? kSecondsAhead / median_.value() : 0.0;
+    return static_cast<std::size_t>(
+        std::clamp(tasks, static_cast<double>(kTasksAhead), static_cast<double>(kMostTasksAhead)));
   }
 
   bool hand_out_here(std::size_t most, Clock::time_point now, TaskBoard::Seconds patience) {

@@ -52,8 +52,9 @@ std::vector<LessonPlan> calibration_folds(const FeatureTable& table, std::span<c
 
 void FoldCounter::add(const LessonPlan& fold, const JudgesTask& task, std::string_view result, bool is_last) {
   const FeatureMatrix part = unpack_margins(result, fold.judged.size() * table_.tested_rows);
-  margins_.conservativeResize(part.rows(), task.last);
-  margins_.rightCols(task.last - task.first) = part;
+  const auto categories = static_cast<Eigen::Index>(table_.categories.size());
+  margins_.resize(part.rows(), categories * (categories - 1) / 2);  // does nothing but for the first task of the fold
+  margins_.middleCols(task.first, task.last - task.first) = part;
   if (is_last) {
     count(fold);
     margins_.resize(0, 0);

@@ -20,12 +20,8 @@ template <class Matrix>
 Matrix unpack_matrix(Unpacker& fields) {
   const auto rows = static_cast<Eigen::Index>(fields.get<std::uint64_t>());
   const auto columns = static_cast<Eigen::Index>(fields.get<std::uint64_t>());
-  const std::string_view bytes = fields.get_text();
   Matrix matrix(rows, columns);
-  if (bytes.size() != static_cast<std::size_t>(matrix.size()) * sizeof(float)) {
-    throw RunError("a message between ranks holds a matrix of another size");
-  }
-  std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(matrix.data()));
+  fields.get_values_into(std::span<float>(matrix.data(), static_cast<std::size_t>(matrix.size())));
   return matrix;
 }
 
@@ -48,15 +44,6 @@ void pack_folded(Packer& packer, const FoldedJudge& judge) {
   packer.add(std::span<const float>(weights.data(), static_cast<std::size_t>(weights.size())));
 }
 
-FoldedJudge unpack_folded(Unpacker& fields) {
-  FoldedJudge judge;
-  judge.bias = fields.get<float>();
-  judge.support_vectors = fields.get<std::uint32_t>();
-  const std::vector<float> weights = fields.get_values<float>();
-  judge.weights = Eigen::Map<const Eigen::RowVectorXf>(weights.data(), static_cast<Eigen::Index>(weights.size()));
-  return judge;
-}
-
 std::string do_judges(Lessons& lessons, std::string_view bytes) {
   Unpacker fields(bytes);
   const auto number = fields.get<std::uint32_t>();
@@ -70,6 +57,11 @@ std::string do_judges(Lessons& lessons, std::string_view bytes) {
   if (!judged.empty()) {
     pack_matrix(packer, lesson.margins(judges, judged));
     return packer.take();
+  }
+  if (lesson.folds()) {
+    constexpr std::size_t kBesidesWeights = 16;  // bytes of a judge
+    const auto weights = static_cast<std::size_t>(lessons.table().features.cols());
+    packer.reserve(judges.size() * (weights * sizeof(float) + kBesidesWeights));
   }
   for (const Judge& judge : judges) {
     if (lesson.folds()) {
@@ -162,14 +154,16 @@ Work gram_work(const FeatureTable& table, KernelKind kind) {
 }
 
 std::vector<JudgesTask> judges_tasks(const FeatureTable& table, KernelKind kind, std::span<const LessonPlan> lessons) {
-  constexpr std::uint32_t kJudges = 32;  // short tasks, so that the last ones keep nobody waiting for long
+  // Short tasks, so that the last ones keep nobody waiting for long; margins take less time than folding.
+  constexpr std::uint32_t kJudges = 32;
+  constexpr std::uint32_t kJudgedJudges = 96;
   const auto categories = static_cast<std::uint32_t>(table.categories.size());
   const std::uint32_t pairs = categories * (categories - 1) / 2;
   std::vector<JudgesTask> tasks;
   for (std::uint32_t lesson = 0; lesson < lessons.size(); ++lesson) {
     // The margins of all judges with a kernel of their own need the same row of it, which takes longest.
     const bool together = kind != KernelKind::linear && !lessons[lesson].judged.empty();
-    const std::uint32_t each = together ? pairs : kJudges;
+    const std::uint32_t each = together ? pairs : lessons[lesson].judged.empty() ? kJudges : kJudgedJudges;
     for (std::uint32_t first = 0; first < pairs; first += each) {
       tasks.push_back({lesson, first, std::min(first + each, pairs)});
     }
@@ -183,8 +177,10 @@ std::string pack(const JudgesTask& task) {
 
 void put_folded(std::string_view result, std::uint32_t first, JudgeList& list) {
   Unpacker fields(result);
-  for (std::size_t l = first; !fields.empty(); ++l) {
-    list.put(l, unpack_folded(fields));
+  for (Eigen::Index l = first; !fields.empty(); ++l) {
+    list.bias[l] = fields.get<float>();
+    list.support_vectors.at(static_cast<std::size_t>(l)) = fields.get<std::uint32_t>();
+    fields.get_values_into(std::span<float>(list.weights.row(l).data(), static_cast<std::size_t>(list.weights.cols())));
   }
 }
 

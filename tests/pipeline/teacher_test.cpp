@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <mutex>
 #include <numeric>
 #include <thread>
 #include <vector>
@@ -14,6 +16,8 @@
 #include "spincat/pipeline/task_kinds.h"
 #include "spincat/pipeline/teach_tasks.h"
 #include "spincat/pipeline/trial.h"
+#include "support/temp_dir.h"
+#include "tiny_dataset.h"
 
 namespace spincat {
 namespace {
@@ -59,9 +63,15 @@ std::string packed(const Context& context) {
   return packer.take();
 }
 
-std::string gram_context() {
-  return packed([](Packer& packer) {
-    pack_expected({}, packer);
+constexpr std::uint64_t kSharedAs = 7;
+
+std::string table_context(const FeatureTable& table) {
+  return packed([&](Packer& packer) { pack_table(table, kSharedAs, packer); });
+}
+
+std::string gram_context(std::uint64_t shared_as = kSharedAs) {
+  return packed([=](Packer& packer) {
+    pack_expected({shared_as, 0}, packer);
     packer.add(KernelKind::linear);
   });
 }
@@ -71,21 +81,42 @@ class ServingRanks {
  public:
   explicit ServingRanks(int count) : wires_(std::make_shared<test::Wires>(count)), own_(wires_, 0) {
     for (int r = 1; r < count; ++r) {
-      servers_.emplace_back([wires = wires_, r] {
+      servers_.emplace_back([this, wires = wires_, r] {
         test::ThreadCommunicator ranks(wires, r);
-        serve(ranks, pipeline_work(), {[](int) { return 2; }, [] {}});
+        serve(ranks, noting_what_it_makes(), {[](int) { return 2; }, [] {}});
       });
     }
   }
-  ~ServingRanks() {
-    for (std::thread& server : servers_) {
-      server.join();
-    }
-  }
+  ~ServingRanks() { join(); }
   Communicator& communicator() { return own_; }
 
+  // How often any rank has begun work of this kind. Wait for the end of the farm first.
+  int begun(const std::string& kind) {
+    join();
+    return begun_[kind];
+  }
+
  private:
+  void join() {
+    for (std::thread& server : servers_) {
+      if (server.joinable()) {
+        server.join();
+      }
+    }
+  }
+
+  WorkFactory noting_what_it_makes() {
+    return [this, make = pipeline_work()](std::string_view kind, std::string_view context) {
+      RankWork work = make(kind, context);
+      const std::lock_guard lock(begun_mutex_);
+      ++begun_[std::string(kind)];
+      return work;
+    };
+  }
+
   std::shared_ptr<test::Wires> wires_;
+  std::mutex begun_mutex_;
+  std::map<std::string, int> begun_;
   test::ThreadCommunicator own_;
   std::vector<std::thread> servers_;
 };
@@ -125,7 +156,7 @@ TEST(Teaching, RanksUseTheRowsTheyKept) {
     table.described_as.push_back(2 * i + 1);  // every other file could not be read
   }
   KeptData kept;
-  EXPECT_THROW(make_table_work(packed([&](Packer& packer) { pack_table(table, packer); }), kept), RunError);
+  EXPECT_THROW(make_table_work(table_context(table), kept), RunError);
   EXPECT_THROW(make_gram_work(gram_context(), kept), RunError);
   kept.rows.emplace(60, 2);
   for (std::uint32_t i = 0; i < 30; ++i) {
@@ -136,10 +167,38 @@ TEST(Teaching, RanksUseTheRowsTheyKept) {
     }
     kept.rows->put(table.described_as[i], features);
   }
-  make_table_work(packed([&](Packer& packer) { pack_table(table, packer); }), kept);
+  make_table_work(table_context(table), kept);
   EXPECT_EQ(kept.data.table.features, table.features);
   EXPECT_EQ(kept.data.table.object_labels(), table.object_labels());
   EXPECT_FALSE(kept.rows);
+  EXPECT_THROW(make_gram_work(gram_context(kSharedAs + 1), kept), RunError);  // it has missed another sharing
+  EXPECT_NO_THROW(make_gram_work(gram_context(), kept));
+}
+
+// As a sweep over settings of the judges does.
+TEST(Teaching, RanksKeepATableForAnotherTeacher) {
+  const test::TempDir dir;
+  test::write_tiny_shapes(dir, "shapes", 4);
+  constexpr int kRanks = 3;
+  ServingRanks ranks(kRanks);
+  {
+    TaskFarm farm(ranks.communicator());
+    const FeatureTable table = describe_dataset(read_dataset({dir / "shapes"}), test::tiny_settings(), false, farm,
+                                                Division::sums, kWorthSharing, {});
+    ASSERT_EQ(table.described_as.size(), 12U);
+    std::vector<std::uint32_t> objects(12);
+    std::iota(objects.begin(), objects.end(), 0U);
+    for (const double c : {3.0, 300.0}) {
+      const JudgeSettings settings{KernelKind::linear, c, true};
+      Teacher teacher(table, settings, farm, kWorthSharing);
+      OwnFarm one(1);
+      Teacher alone(table, settings, one.farm(), kWorthSharing);
+      EXPECT_EQ(teacher.teach(objects).weights, alone.teach(objects).weights);
+    }
+  }
+  for (const char* kind : {kTableTasks, kGramTasks, kJudgesTasks}) {
+    EXPECT_EQ(ranks.begun(kind), 2 * (kRanks - 1)) << kind;
+  }
 }
 
 TEST(Teaching, TinyTablesStayHere) {
@@ -170,8 +229,8 @@ TEST(Trials, AreTheSameFromWhatARankKeeps) {
   EXPECT_EQ(expected.strangers.size(), 1U);
 
   KeptData kept;
-  make_table_work(packed([&](Packer& packer) { pack_table(data.table, packer); }), kept);
-  const std::string trials = packed([&](Packer& packer) { pack_trials(data, teacher.gram(), settings, true, packer); });
+  make_table_work(table_context(data.table), kept);
+  const std::string trials = packed([&](Packer& packer) { pack_trials(data, {kSharedAs, 1}, settings, true, packer); });
   const RankWork gram = make_gram_work(gram_context(), kept);
   const std::vector<GramTask> strips = gram_tasks(data.table, KernelKind::linear);
   for (std::size_t i = 0; i < strips.size(); ++i) {

@@ -9,6 +9,7 @@
 
 #include "spincat/error.h"
 #include "spincat/pipeline/describe_tasks.h"
+#include "spincat/pipeline/fresh_number.h"
 #include "spincat/pipeline/sharing.h"
 #include "spincat/pipeline/table_rows.h"
 
@@ -147,8 +148,13 @@ FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, 
   std::vector<Seen> objects(dataset.objects.size());
   TableRows rows(objects.size(), rows_each);
   bool all_ranks_keep = false;
-  DescribeJob job{objects.size(), [&](std::size_t i) -> const std::filesystem::path& { return dataset.objects[i].file; },
-                  settings, settings.training_rows(), division, dataset.limits, {}};
+  DescribeJob job{objects.size(),
+                  [&](std::size_t i) -> const std::filesystem::path& { return dataset.objects[i].file; },
+                  settings,
+                  settings.training_rows(),
+                  division,
+                  dataset.limits,
+                  {}};
   job.keeps_rows = [&](std::size_t length) {
     all_ranks_keep =
         pays_to_share({objects.size(), objects.size() * rows_each, length, dataset.categories.size()}, plan, farm);
@@ -174,7 +180,9 @@ FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, 
   });
   leave_out_shorter(dataset, strict, rows.length(), objects);
   FeatureTable table = collect(dataset, objects, std::move(rows), settings);
-  if (!all_ranks_keep) {
+  if (all_ranks_keep) {
+    table.number = fresh_number();
+  } else {
     table.described_as.clear();
   }
   check_categories(table, dataset.name);

@@ -34,10 +34,11 @@ struct FeatureTable {
   std::uint32_t tested_rows = 1;  // of these, the first ones: what may be tested, the object itself or its views
   std::uint32_t parts = 1;        // of a row, all of one length
   std::string encoding;
-  KindCounts kinds;      // of the objects
-  StageSeconds seconds;  // added up over threads
+  KindCounts kinds;                         // of the objects
+  StageSeconds seconds;                     // added up over threads
   std::vector<std::uint32_t> described_as;  // N where all ranks of the farm keep the rows: which objects of the data
                                             // set these are; else empty
+  std::uint64_t number = 0;                 // by which these ranks know the rows again; 0 where they do not keep them
 
   std::vector<std::uint32_t> object_labels() const;  // N
   std::vector<std::uint32_t> object_counts() const;  // n: objects of each category, copies not counted

@@ -73,8 +73,9 @@ std::string do_judges(Lessons& lessons, std::string_view bytes) {
   return packer.take();
 }
 
-FeatureTable unpack_table(Unpacker& fields, std::optional<TableRows> rows) {
+FeatureTable unpack_table(Unpacker& fields, std::uint64_t number, std::optional<TableRows> rows) {
   FeatureTable table;
+  table.number = number;
   table.categories.resize(fields.get<std::uint32_t>());
   for (const std::uint32_t label : fields.get_values<std::uint32_t>()) {
     table.objects.push_back({{}, label, {}});
@@ -99,10 +100,12 @@ FeatureTable unpack_table(Unpacker& fields, std::optional<TableRows> rows) {
 
 }  // namespace
 
-void pack_table(const FeatureTable& table, Packer& packer) {
+void pack_table(const FeatureTable& table, std::uint64_t shared_as, Packer& packer) {
+  // Does not compile when a member is forgotten.
   const auto& [objects, categories, skipped, features, blocks, local_size, words, seed, rows_per_object, tested_rows,
-               parts, encoding, kinds, seconds, described_as] = table;  // does not compile when a member is forgotten
-  static_cast<void>(std::tie(skipped, encoding, kinds, seconds));       // not for other ranks
+               parts, encoding, kinds, seconds, described_as, number] = table;
+  static_cast<void>(std::tie(skipped, encoding, kinds, seconds));  // not for other ranks
+  packer.add(shared_as).add(number);
   packer.add(static_cast<std::uint32_t>(categories.size()));
   const std::vector<std::uint32_t> labels = table.object_labels();
   packer.add(std::span<const std::uint32_t>(labels)).add(std::span<const std::uint32_t>(blocks));
@@ -202,10 +205,10 @@ FeatureMatrix unpack_margins(std::string_view result, std::size_t objects) {
   return margins;
 }
 
-void pack_lessons(const SharedGram& gram, const JudgeSettings& settings, std::span<const LessonPlan> lessons,
+void pack_lessons(const Expected& expected, const JudgeSettings& settings, std::span<const LessonPlan> lessons,
                   Packer& packer) {
   const auto& [kernel, c, class_weights] = settings;
-  pack_expected(gram, packer);
+  pack_expected(expected, packer);
   packer.add(kernel).add(c).add(class_weights);
   for (const auto& [taught, judged] : lessons) {
     packer.add(std::span<const std::uint32_t>(taught)).add(std::span<const std::uint32_t>(judged));
@@ -216,13 +219,15 @@ Work judges_work(std::shared_ptr<Lessons> lessons) {
   return [lessons = std::move(lessons)](std::string_view task) { return do_judges(*lessons, task); };
 }
 
-void pack_expected(const SharedGram& gram, Packer& packer) {
-  packer.add(static_cast<std::uint32_t>(gram.blocks.size()));
+void pack_expected(const Expected& expected, Packer& packer) {
+  packer.add(expected.shared_as).add(expected.matrices);
 }
 
 const KeptData& expected_of(Unpacker& fields, const KeptData& kept) {
   const bool all_strips = std::ranges::find(kept.no_strip, true) == kept.no_strip.end();
-  if (kept.data.table.objects.empty() || kept.gram.blocks.size() != fields.get<std::uint32_t>() || !all_strips) {
+  const auto shared_as = fields.get<std::uint64_t>();
+  const auto matrices = fields.get<std::uint32_t>();
+  if (shared_as == 0 || kept.shared_as != shared_as || kept.gram.blocks.size() != matrices || !all_strips) {
     throw RunError("this rank could not keep what it was given");
   }
   return kept;
@@ -230,9 +235,18 @@ const KeptData& expected_of(Unpacker& fields, const KeptData& kept) {
 
 Work make_table_work(std::string_view context, KeptData& kept) {
   Unpacker fields(context);
+  const auto shared_as = fields.get<std::uint64_t>();
+  const auto number = fields.get<std::uint64_t>();
   std::optional<TableRows> rows = std::exchange(kept.rows, std::nullopt);
-  kept = {};  // first: both at once may be too much
-  kept.data.table = unpack_table(fields, std::move(rows));
+  const bool has_table = number != 0 && !rows && kept.shared_as != 0 && kept.data.table.number == number;
+  if (has_table) {
+    kept.gram = {};
+    kept.no_strip.clear();
+  } else {
+    kept = {};  // first: both at once may be too much
+    kept.data.table = unpack_table(fields, number, std::move(rows));
+  }
+  kept.shared_as = shared_as;
   return {};
 }
 

@@ -23,13 +23,21 @@ namespace spincat {
 // What a rank keeps from one job to the next.
 struct KeptData {
   std::optional<TableRows> rows;  // of objects that were described, until they are a table
+  std::uint64_t shared_as = 0;    // what the table was shared as; 0: there is none
   EvaluationData data;            // the table; the rest where an evaluation is on
   SharedGram gram;                // of the table, strip by strip
   std::vector<bool> no_strip;     // by gram_tasks(): not there yet
 };
 
-// Sent once, kept by the others: of objects only their categories, and the features only where they do not have them.
-void pack_table(const FeatureTable& table, Packer& packer);
+// Kept by the others, to teach on it by other settings, too, each time under another number: of objects only their
+// categories, and the features only where ranks do not have them.
+void pack_table(const FeatureTable& table, std::uint64_t shared_as, Packer& packer);
+
+// By which a rank knows whether it keeps what it should: it may have missed something.
+struct Expected {
+  std::uint64_t shared_as = 0;
+  std::uint32_t matrices = 0;  // of inner products
+};
 
 // One strip of one of the matrices of a SharedGram.
 struct GramTask {
@@ -61,13 +69,12 @@ void put_folded(std::string_view result, std::uint32_t first, JudgeList& list);
 std::vector<Judge> unpack_judges(std::string_view result);
 // Margins of the judged objects: a row for each of `objects` (or of their views), a column for each judge of the task.
 FeatureMatrix unpack_margins(std::string_view result, std::size_t objects);
-// `gram` is what the others keep.
-void pack_lessons(const SharedGram& gram, const JudgeSettings& settings, std::span<const LessonPlan> lessons,
+void pack_lessons(const Expected& expected, const JudgeSettings& settings, std::span<const LessonPlan> lessons,
                   Packer& packer);
 Work judges_work(std::shared_ptr<Lessons> lessons);
 
-// For a context: by which a rank knows whether it keeps what it should.
-void pack_expected(const SharedGram& gram, Packer& packer);
+// For a context.
+void pack_expected(const Expected& expected, Packer& packer);
 // What the rank keeps. Throws RunError when that is not what is expected: it could not keep it.
 const KeptData& expected_of(Unpacker& fields, const KeptData& kept);
 

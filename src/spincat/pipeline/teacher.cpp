@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "spincat/pipeline/calibration_folds.h"
+#include "spincat/pipeline/fresh_number.h"
 #include "spincat/pipeline/lesson.h"
 #include "spincat/pipeline/task_kinds.h"
 #include "spincat/pipeline/teach_tasks.h"
@@ -62,7 +63,8 @@ Teacher::Teacher(const FeatureTable& table, const JudgeSettings& settings, TaskF
                        static_cast<std::size_t>(table.features.cols()), table.categories.size()};
   const bool shared = farm.ranks() > 1 && (!table.described_as.empty() || pays_to_share(size, plan, farm));
   if (shared) {
-    farm.share(kTableTasks, [&](Packer& packer) { pack_table(table, packer); });
+    shared_as_ = fresh_number();
+    farm.share(kTableTasks, [&](Packer& packer) { pack_table(table, shared_as_, packer); });
   } else if (farm.ranks() > 1) {
     farm_ = &own_.emplace(farm.threads()).farm();
   }
@@ -75,6 +77,10 @@ Teacher::Teacher(const FeatureTable& table, const JudgeSettings& settings, TaskF
 Teacher::Teacher(const FeatureTable& table, const SharedGram& gram, const JudgeSettings& settings, int threads)
     : table_(table), settings_(settings), own_(std::in_place, threads), farm_(&own_->farm()), gram_(&gram) {}
 
+Expected Teacher::expected() const {
+  return {shared_as_, static_cast<std::uint32_t>(gram_->blocks.size())};
+}
+
 void Teacher::compute_gram(const Progress& progress) {
   const std::vector<GramTask> tasks = gram_tasks(table_, settings_.kernel);
   own_gram_ = unfilled_gram(table_, settings_.kernel);
@@ -82,7 +88,7 @@ void Teacher::compute_gram(const Progress& progress) {
   job.kind = kGramTasks;
   job.in_journal = false;
   job.context = [&](Packer& packer) {
-    pack_expected({}, packer);
+    pack_expected({shared_as_, 0}, packer);
     packer.add(settings_.kernel);
   };
   job.work = gram_work(table_, settings_.kernel);
@@ -115,7 +121,7 @@ CalibratedJudges Teacher::do_lessons(std::span<const LessonPlan> lessons, const 
   Job job;
   job.kind = kJudgesTasks;
   job.in_journal = false;
-  job.context = [&](Packer& packer) { pack_lessons(*gram_, settings_, lessons, packer); };
+  job.context = [&](Packer& packer) { pack_lessons(expected(), settings_, lessons, packer); };
   job.work = judges_work(made);
   job.tasks = tasks.size();
   job.task = [&](std::size_t i) { return pack(tasks[i]); };

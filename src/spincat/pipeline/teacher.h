@@ -15,6 +15,7 @@
 
 namespace spincat {
 
+struct Expected;
 struct LessonPlan;
 
 // Judges, and how far their votes can be trusted.
@@ -40,6 +41,9 @@ class Teacher {
   // parts.
   const SharedGram& gram() const { return *gram_; }
 
+  // What other ranks should keep (teach_tasks.h).
+  Expected expected() const;
+
   // Where jobs are done: on all ranks that have the table.
   TaskFarm& farm() { return *farm_; }
 
@@ -63,6 +67,7 @@ class Teacher {
   const JudgeSettings settings_;
   std::optional<OwnFarm> own_;
   TaskFarm* farm_;
+  std::uint64_t shared_as_ = 0;
   SharedGram own_gram_;
   const SharedGram* gram_ = &own_gram_;
 };

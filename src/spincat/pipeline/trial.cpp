@@ -156,9 +156,9 @@ Trial unpack_trial(std::string_view result, std::size_t categories) {
   return trial;
 }
 
-void pack_trials(const EvaluationData& data, const SharedGram& gram, const Settings& settings, bool measure_confidence,
-                 Packer& packer) {
-  pack_expected(gram, packer);
+void pack_trials(const EvaluationData& data, const Expected& expected, const Settings& settings,
+                 bool measure_confidence, Packer& packer) {
+  pack_expected(expected, packer);
   packer.add(settings_to_json(settings).dump()).add(measure_confidence).add(data.tested.has_value());
   pack_tested(packer, data.strangers);
   if (data.tested) {

@@ -40,8 +40,8 @@ Trial run_trial(const EvaluationData& data, Teacher& teacher, const Split& split
 // what is only tested.
 std::string pack(const Split& split);
 Trial unpack_trial(std::string_view result, std::size_t categories);
-void pack_trials(const EvaluationData& data, const SharedGram& gram, const Settings& settings, bool measure_confidence,
-                 Packer& packer);
+void pack_trials(const EvaluationData& data, const Expected& expected, const Settings& settings,
+                 bool measure_confidence, Packer& packer);
 Work trial_work(const EvaluationData& data, const SharedGram& gram, const Settings& settings, bool measure_confidence);
 Work make_trial_work(std::string_view context, KeptData& kept);
 

@@ -116,6 +116,27 @@ std::span<const float> as_floats(const std::string& bytes) {
   return {reinterpret_cast<const float*>(bytes.data()), bytes.size() / sizeof(float)};
 }
 
+using ConsumeImages = std::function<void(std::size_t first, std::span<const float> images)>;
+
+void share_out_images(TaskFarm& farm, const DenseObject& object, bool in_journal, const ConsumeImages& consume,
+                      const TaskFarm::Tick& tick) {
+  const SpinImageMaker maker(object.surface, object.params);
+  const Runs runs(object, farm.threads_everywhere());
+  Job job;
+  job.kind = kImagesTasks;
+  job.context = [&](Packer& packer) { pack(object, packer); };
+  job.work = [&](std::string_view task) { return images_of(maker, object.spin_points, task); };
+  job.tasks = runs.count();
+  job.task = [&](std::size_t i) { return runs.task(i); };
+  job.deliver = [&](std::size_t i, const std::string& result) { consume(i * runs.length, as_floats(result)); };
+  job.in_journal = in_journal;
+  farm.run(job, [&](std::size_t done) {
+    if (tick) {
+      tick(std::min(done * runs.length, object.spin_points.size()));
+    }
+  });
+}
+
 }  // namespace
 
 Work make_images_work(std::string_view context) {
@@ -138,20 +159,7 @@ Work make_sums_work(std::string_view context) {
 void make_spin_images(TaskFarm& farm, const DenseObject& object,
                       const std::function<void(std::size_t first, std::span<const float> images)>& consume,
                       const TaskFarm::Tick& tick) {
-  const SpinImageMaker maker(object.surface, object.params);
-  const Runs runs(object, farm.threads_everywhere());
-  Job job;
-  job.kind = kImagesTasks;
-  job.context = [&](Packer& packer) { pack(object, packer); };
-  job.work = [&](std::string_view task) { return images_of(maker, object.spin_points, task); };
-  job.tasks = runs.count();
-  job.task = [&](std::size_t i) { return runs.task(i); };
-  job.deliver = [&](std::size_t i, const std::string& result) { consume(i * runs.length, as_floats(result)); };
-  farm.run(job, [&](std::size_t done) {
-    if (tick) {
-      tick(std::min(done * runs.length, object.spin_points.size()));
-    }
-  });
+  share_out_images(farm, object, true, consume, tick);
 }
 
 FeatureVector encode_object(TaskFarm& farm, const DenseObject& object, std::string_view encoding_name,
@@ -163,8 +171,9 @@ FeatureVector encode_object(TaskFarm& farm, const DenseObject& object, std::stri
   if (division == Division::images || !encoding->pools() || object.spin_points.empty()) {
     BlockSums sums(*object_sums);
     const auto add = [&](const SpinImageBlock& block) { sums.add(block); };
-    make_spin_images(
-        farm, object,
+    // Not in the journal: gigabytes of images that nobody asked for, to save a feature vector.
+    share_out_images(
+        farm, object, false,
         [&](std::size_t first, std::span<const float> images) {
           for_each_block(first, images, object.params.shape(), add);
         },

@@ -29,8 +29,8 @@ void make_spin_images(TaskFarm& farm, const DenseObject& object,
                       const std::function<void(std::size_t first, std::span<const float> images)>& consume,
                       const TaskFarm::Tick& tick);
 
-// The feature vector of the object, as describe() makes it. Throws InputError when there is no such encoding or it
-// cannot work on such images.
+// The feature vector of the object, as describe() makes it. With Division::images no journal keeps the images. Throws
+// InputError when there is no such encoding or it cannot work on such images.
 FeatureVector encode_object(TaskFarm& farm, const DenseObject& object, std::string_view encoding, Division division,
                             const TaskFarm::Tick& tick);
 

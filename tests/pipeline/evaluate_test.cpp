@@ -10,6 +10,9 @@
 #include <variant>
 
 #include "spincat/dataset/parts.h"
+#include "spincat/error.h"
+#include "spincat/parallel/journal.h"
+#include "spincat/parallel/task_farm.h"
 #include "support/expect_error.h"
 #include "tiny_dataset.h"
 
@@ -212,6 +215,43 @@ TEST_F(Protocols, ConfidenceIsMeasuredOnKnownAndUnknownObjects) {
   EXPECT_LT(one.confidence->mean_confidence, 1.0);
   ASSERT_EQ(one.skipped.size(), 1U);
   EXPECT_EQ(one.skipped[0].file, dir_ / "absent.off");
+}
+
+// An interrupted evaluation goes on after the splits that are judged.
+TEST_F(Protocols, AJournalKeepsSplitsForTheSameDataAndSettings) {
+  EvaluateOptions options;
+  options.splits = 6;
+  Settings settings = tiny_settings();
+  EvaluationData data = describe_for_evaluation(shapes(), settings, options);
+  const Evaluation expected = judge_evaluation(data, settings, options);
+  Journal journal(dir_ / "j", {"settings", "data"});
+  Evaluation found;
+  const auto resumed = [&](const Progress& progress = {}) {
+    OwnFarm own(2);
+    own.farm().use_journal(&journal);
+    EvaluateOptions with_farm = options;
+    with_farm.farm = &own.farm();
+    found = judge_evaluation(data, settings, with_farm, progress);
+    return own.farm().report().resumed;
+  };
+  const Progress stop = [](std::string_view stage, std::size_t done, std::size_t) {
+    if (stage == "judging splits" && done >= 3) {
+      throw RunError("killed");
+    }
+  };
+  EXPECT_THROW(resumed(stop), RunError);
+  const std::size_t judged = journal.size();
+  EXPECT_GE(judged, 3U);
+  EXPECT_EQ(resumed(), judged);
+  EXPECT_EQ(found.confusion, expected.confusion);
+  EXPECT_EQ(resumed(), 6U);
+  EXPECT_EQ(found.confusion, expected.confusion);
+  settings.judge.c *= 2.0;
+  EXPECT_EQ(resumed(), 0U);
+  data.table.features(0, 0) += 1.0F;
+  EXPECT_EQ(resumed(), 0U);
+  options.splits = 5;
+  EXPECT_EQ(resumed(), 0U);
 }
 
 TEST(InTestForm, TurnsRigidly) {

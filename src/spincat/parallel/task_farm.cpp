@@ -77,8 +77,10 @@ class TaskFarm::Run {
       }
       rest(pause.after({happened, farm_.ranks_.under_way() > 0, tasks_here() > 0}));
     }
-    const std::chrono::duration<double> spent = Clock::now() - start;
-    farm_.seconds_ += spent.count();
+    if (!job_.stays_here) {
+      const std::chrono::duration<double> spent = Clock::now() - start;
+      farm_.seconds_ += spent.count();
+    }
   }
 
  private:
@@ -103,7 +105,7 @@ class TaskFarm::Run {
       }
     }
     farm_.resumed_ += known;
-    started_ = (known < job_.tasks || job_.tells_all) && !farm_.others_.empty();
+    started_ = (known < job_.tasks || job_.tells_all) && !farm_.others_.empty() && !job_.stays_here;
     if (started_) {
       const SharedBytes start = farm_.start_of(number_, job_.kind, job_.context);
       for (std::size_t r = 0; r < farm_.others_.size(); ++r) {
@@ -117,8 +119,8 @@ class TaskFarm::Run {
   // object can be read now and could not be then.
   std::uint64_t hash_of_job() const {
     Packer packer;
-    if (job_.context) {
-      job_.context(packer);
+    if (const Context& content = job_.identity ? job_.identity : job_.context) {
+      content(packer);
     }
     std::uint64_t hash = hash_of(packer.take());
     for (std::size_t task = 0; task < job_.tasks; ++task) {
@@ -133,7 +135,7 @@ class TaskFarm::Run {
 
   // Few ranks, or nobody else there.
   bool works_here() const {
-    return farm_.ranks_.size() <= kMostRanksToWorkAt ||
+    return job_.stays_here || farm_.ranks_.size() <= kMostRanksToWorkAt ||
            std::ranges::all_of(farm_.others_, [](const Rank& rank) { return rank.lost || rank.refused; });
   }
 
@@ -147,7 +149,7 @@ class TaskFarm::Run {
       if (!result) {
         break;
       }
-      farm_.busy_here_ += result->seconds;
+      farm_.busy_here_ += job_.stays_here ? 0.0 : result->seconds;
       accept(kHere, std::move(*result));
       taken = true;
     }
@@ -338,7 +340,7 @@ class TaskFarm::Run {
   }
 
   void rest(std::chrono::microseconds pause) {
-    if (farm_.others_.empty()) {
+    if (!started_) {
       pause = kBetweenTicks;  // a finished task wakes us
     }
     if (board_.all_delivered()) {

@@ -26,13 +26,15 @@ using Context = std::function<void(Packer& packer)>;
 // Tasks of one kind.
 struct Job {
   std::string kind;  // by which other ranks know the work
-  Context context;   // what they need for it; also tells the journal which job this is
+  Context context;   // what they need for it
+  Context identity;  // what its results depend on, by which the journal knows it; empty: the context is that
   Work work;         // the same work, here
   std::size_t tasks = 0;
   std::function<std::string(std::size_t task)> task;  // what is to be done, as bytes
   std::function<void(std::size_t task, std::string result)>
-      deliver;             // on the calling thread, in the order of the tasks
-  bool in_journal = true;  // false where results are large, or soon computed again
+      deliver;              // on the calling thread, in the order of the tasks
+  bool in_journal = true;   // false where results are large, or soon computed again
+  bool stays_here = false;  // for the threads of this process alone
   // Whether all ranks are to be told all results, as they come (RankWork::keep): every rank that takes part then knows
   // them before it hears of the next job. Asked with one result after the other until it says so; those for which it
   // says nothing are not told. Empty: no.

@@ -81,8 +81,9 @@ std::vector<Trial> run_trials(const EvaluationData& data, const std::vector<Spli
   }
   Job job;
   job.kind = kTrialTasks;
-  job.in_journal = false;  // it would have to know which splits
+  job.stays_here = !teacher.is_shared();
   job.context = [&](Packer& packer) { pack_trials(data, teacher.expected(), settings, confidence, packer); };
+  job.identity = [&](Packer& packer) { pack_trials_identity(data, settings, confidence, packer); };
   job.work = trial_work(data, teacher.gram(), settings, confidence);
   job.tasks = splits.size();
   job.task = [&](std::size_t i) { return pack(splits[i]); };

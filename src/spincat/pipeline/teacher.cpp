@@ -61,12 +61,9 @@ Teacher::Teacher(const FeatureTable& table, const JudgeSettings& settings, TaskF
     : table_(table), settings_(settings), farm_(&farm) {
   const TableSize size{table.objects.size(), static_cast<std::size_t>(table.features.rows()),
                        static_cast<std::size_t>(table.features.cols()), table.categories.size()};
-  const bool shared = farm.ranks() > 1 && (!table.described_as.empty() || pays_to_share(size, plan, farm));
-  if (shared) {
+  if (farm.ranks() > 1 && (!table.described_as.empty() || pays_to_share(size, plan, farm))) {
     shared_as_ = fresh_number();
     farm.share(kTableTasks, [&](Packer& packer) { pack_table(table, shared_as_, packer); });
-  } else if (farm.ranks() > 1) {
-    farm_ = &own_.emplace(farm.threads()).farm();
   }
   const std::size_t matrices = gram_columns(settings.kernel, table.blocks, table.features.cols()).size();
   if (table.local_size == 0 && may_share_gram(table.features.rows(), static_cast<Eigen::Index>(matrices))) {
@@ -87,6 +84,7 @@ void Teacher::compute_gram(const Progress& progress) {
   Job job;
   job.kind = kGramTasks;
   job.in_journal = false;
+  job.stays_here = !is_shared();
   job.context = [&](Packer& packer) {
     pack_expected({shared_as_, 0}, packer);
     packer.add(settings_.kernel);
@@ -121,6 +119,7 @@ CalibratedJudges Teacher::do_lessons(std::span<const LessonPlan> lessons, const 
   Job job;
   job.kind = kJudgesTasks;
   job.in_journal = false;
+  job.stays_here = !is_shared();
   job.context = [&](Packer& packer) { pack_lessons(expected(), settings_, lessons, packer); };
   job.work = judges_work(made);
   job.tasks = tasks.size();

@@ -44,8 +44,9 @@ class Teacher {
   // What other ranks should keep (teach_tasks.h).
   Expected expected() const;
 
-  // Where jobs are done: on all ranks that have the table.
+  // Where jobs are done, and whether by all ranks: those that have the table.
   TaskFarm& farm() { return *farm_; }
+  bool is_shared() const { return shared_as_ != 0; }
 
   // Teaches the judge of every pair of categories on the given objects and their copies. Where the table holds local
   // features, their codebook is learned first, from these objects alone.

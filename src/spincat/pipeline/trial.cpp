@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "spincat/parallel/journal.h"
 #include "spincat/parallel/packing.h"
 #include "spincat/pipeline/settings_json.h"
 #include "spincat/pipeline/table_familiarity.h"
@@ -59,6 +60,15 @@ std::string pack(const Trial& trial) {
   packer.add(std::span<const double>(right)).add(std::span<const double>(wrong));
   packer.add(std::span<const double>(strangers));
   return packer.take();
+}
+
+// But for the table.
+void pack_rest(const EvaluationData& data, const Settings& settings, bool measure_confidence, Packer& packer) {
+  packer.add(settings_to_json(settings).dump()).add(measure_confidence).add(data.tested.has_value());
+  pack_tested(packer, data.strangers);
+  if (data.tested) {
+    pack_tested(packer, *data.tested);
+  }
 }
 
 // What is tested: the objects of the table, or those of another one.
@@ -159,11 +169,20 @@ Trial unpack_trial(std::string_view result, std::size_t categories) {
 void pack_trials(const EvaluationData& data, const Expected& expected, const Settings& settings,
                  bool measure_confidence, Packer& packer) {
   pack_expected(expected, packer);
-  packer.add(settings_to_json(settings).dump()).add(measure_confidence).add(data.tested.has_value());
-  pack_tested(packer, data.strangers);
-  if (data.tested) {
-    pack_tested(packer, *data.tested);
-  }
+  pack_rest(data, settings, measure_confidence, packer);
+}
+
+// The table by a hash of its features, and of its files nothing: they have done their part when they are described.
+void pack_trials_identity(const EvaluationData& data, const Settings& settings, bool measure_confidence,
+                          Packer& packer) {
+  const FeatureTable& table = data.table;
+  const std::vector<std::uint32_t> labels = table.object_labels();
+  const std::string_view features(reinterpret_cast<const char*>(table.features.data()),
+                                  static_cast<std::size_t>(table.features.size()) * sizeof(float));
+  packer.add(static_cast<std::uint64_t>(table.categories.size())).add(std::span<const std::uint32_t>(labels));
+  packer.add(std::span<const std::uint32_t>(table.blocks)).add(table.local_size).add(table.words).add(table.seed);
+  packer.add(table.rows_per_object).add(table.tested_rows).add(table.parts).add(hash_of(features));
+  pack_rest(data, settings, measure_confidence, packer);
 }
 
 Work trial_work(const EvaluationData& data, const SharedGram& gram, const Settings& settings, bool measure_confidence) {

@@ -42,6 +42,9 @@ std::string pack(const Split& split);
 Trial unpack_trial(std::string_view result, std::size_t categories);
 void pack_trials(const EvaluationData& data, const Expected& expected, const Settings& settings,
                  bool measure_confidence, Packer& packer);
+// All that their results depend on but the splits.
+void pack_trials_identity(const EvaluationData& data, const Settings& settings, bool measure_confidence,
+                          Packer& packer);
 Work trial_work(const EvaluationData& data, const SharedGram& gram, const Settings& settings, bool measure_confidence);
 Work make_trial_work(std::string_view context, KeptData& kept);
 

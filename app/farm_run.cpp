@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+#include <string_view>
+
 #include "messages.h"
 #include "ranks.h"
 #include "spincat/parallel/for_each.h"
@@ -16,6 +19,9 @@ FarmRun::FarmRun(TaskFarm& farm, const RunOptions& run) : farm_(farm), run_(run)
   const int ranks_on_host = farm.ranks_on_host();
   const int threads = thread_count(run.threads, ranks_on_host);
   farm.use_threads(threads, run.threads);
+  if (const char* share = std::getenv("SPINCAT_SHARE"); share != nullptr && std::string_view(share) == "always") {
+    farm.share_always();
+  }
   if (farm.ranks() > 1 && !run.quiet) {
     for (const std::string& warning : placement_warnings(threads, ranks_on_host)) {
       message(warning);

@@ -1,7 +1,10 @@
 // A call of MPI that fails on one rank, sending or receiving: what came after it would be put together wrongly.
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "mpi/launching.h"
+#include "spincat/parallel/farm_messages.h"
 
 namespace spincat::test {
 namespace {
@@ -16,19 +19,19 @@ class BrokenLinks : public Launching, public testing::WithParamInterface<Mpi> {
     ASSERT_EQ(alone("train boxes --threads 1 -o alone.spincat").code, 0);
   }
 
-  RunResult run_with(const std::string& failure, const std::string& arguments) {
+  RunResult run_with(const std::string& failure, const std::string& arguments, const std::string& environment = "") {
     const Mpi& mpi = GetParam();
     RunResult result = shell(
-        fmt::format("{} {} -n 3 env LD_PRELOAD={}{}.so SPINCAT_FAIL='{}' SPINCAT_DEADLINE=0.5 '{}' {}", mpi.launcher,
-                    mpi.recovery, SPINCAT_FAILING_MPI, mpi.name, failure, SPINCAT_COMMAND, arguments));
+        fmt::format("{} {} -n 3 env LD_PRELOAD={}{}.so SPINCAT_FAIL='{}' SPINCAT_DEADLINE=0.5 {} '{}' {}", mpi.launcher,
+                    mpi.recovery, SPINCAT_FAILING_MPI, mpi.name, failure, environment, SPINCAT_COMMAND, arguments));
     EXPECT_TRUE(result.code != 124 && result.code != 137) << failure << " hangs\n" << result.err;
     EXPECT_EQ(result.err.find("/spincat("), std::string::npos) << failure << " makes us crash\n" << result.err;
     return result;
   }
 
-  RunResult train_with(const std::string& failure) {
+  RunResult train_with(const std::string& failure, const std::string& more = "", const std::string& environment = "") {
     fs::remove(dir_.path() / "ranks.spincat");
-    RunResult result = run_with(failure, "train boxes --threads 1 -o ranks.spincat");
+    RunResult result = run_with(failure, "train boxes --threads 1 -o ranks.spincat " + more, environment);
     EXPECT_TRUE(has_come(failure)) << failure << " did not come";
     return result;
   }
@@ -53,6 +56,26 @@ TEST_P(BrokenLinks, CostNothingButTime) {
         expect_right_after(fmt::format("{} {} {}", rank, function, call));
       }
     }
+  }
+}
+
+// What all ranks need to teach: the table, the inner products, the lessons, and whether a rank is ready for them.
+TEST_P(BrokenLinks, WhileOtherRanksTeachCostNothingButTime) {
+  constexpr int kObjects = 36;
+  const std::string small = "--copies 1 --points 256 --spin-points 32";
+  ASSERT_EQ(alone("train boxes --threads 1 -o alone.spincat " + small).code, 0);
+  const std::vector<std::tuple<int, farm::Tag, int>> failures = {
+      {0, farm::kJob, 3},              // two ranks were told to describe objects: the table
+      {0, farm::kJob, 5},              // the inner products
+      {0, farm::kTold, kObjects + 1},  // the first of these
+      {0, farm::kJob, 7},              // the lessons
+      {1, farm::kReady, 3},            // for the inner products
+      {1, farm::kReady, 4}};           // for the lessons
+  for (const auto& [rank, tag, call] : failures) {
+    const std::string failure = fmt::format("{} MPI_Isend:{} {}", rank, static_cast<int>(tag), call);
+    const RunResult result = train_with(failure, small, kShareAlways);
+    EXPECT_TRUE(bytes("ranks.spincat") == bytes("alone.spincat")) << failure << "\n" << result.err;
+    EXPECT_NE(result.err.find(" judges elsewhere"), std::string::npos) << failure << "\n" << result.err;
   }
 }
 

@@ -20,13 +20,23 @@ class UnderMpi : public Launching, public testing::WithParamInterface<Mpi> {
   }
 
   // Runs a command on so many ranks and asserts that it did.
-  RunResult run(int ranks, const std::string& arguments) {
-    RunResult result = launch(GetParam(), ranks, arguments);
+  RunResult run(int ranks, const std::string& arguments, const std::string& environment = "") {
+    RunResult result = launch(GetParam(), ranks, arguments, environment);
     EXPECT_EQ(result.code, 0) << result.err;
     if (ranks > 1) {
       EXPECT_NE(result.err.find(fmt::format("spincat: {} ranks on 1 host", ranks)), std::string::npos) << result.err;
       EXPECT_NE(result.err.find("nothing handed out again"), std::string::npos) << result.err;
     }
+    return result;
+  }
+
+  // The same where the other ranks do all of these tasks.
+  RunResult run_elsewhere(int ranks, const std::string& arguments, const std::vector<std::string>& kinds) {
+    RunResult result = run(ranks, arguments, kShareAlways);
+    for (const std::string& kind : kinds) {
+      EXPECT_NE(result.err.find(kind + " elsewhere"), std::string::npos) << result.err;
+    }
+    EXPECT_EQ(result.err.find("could not take part"), std::string::npos) << result.err;
     return result;
   }
 };
@@ -75,6 +85,19 @@ TEST_P(UnderMpi, ModelsAreTheSameBytes) {
   EXPECT_TRUE(bytes("ranks.spincat") == expected) << "images";
 }
 
+TEST_P(UnderMpi, ModelsThatOtherRanksTeachAreTheSameBytes) {
+  make_dataset(5);
+  for (const std::string kernel : {"linear", "rbf"}) {
+    const std::string small = "--threads 1 --copies 1 --points 256 --spin-points 32 --kernel " + kernel;
+    ASSERT_EQ(alone("train boxes -o alone.spincat " + small).code, 0);
+    for (const int ranks : kernel == "linear" ? std::vector<int>{2, 3, 4, 7} : std::vector<int>{3}) {
+      run_elsewhere(ranks, "train boxes -o ranks.spincat " + small,
+                    {" 15 feature vectors of objects", " inner products", " judges"});
+      EXPECT_TRUE(bytes("ranks.spincat") == bytes("alone.spincat")) << ranks << " ranks, " << kernel;
+    }
+  }
+}
+
 TEST_P(UnderMpi, EvaluationsAndNamesAreTheSame) {
   make_dataset(5);
   const std::string small = " --copies 1 --points 256 --spin-points 32";
@@ -102,6 +125,28 @@ TEST_P(UnderMpi, EvaluationsAndNamesAreTheSame) {
     EXPECT_EQ(without_times(run(ranks, classify).out), names);
     EXPECT_TRUE(lasting_part(bytes("page.html")) == page) << ranks << " ranks";
   }
+  for (const int ranks : {2, 3, 4}) {
+    const RunResult shared = run_elsewhere(ranks, evaluate, {" 15 feature vectors of objects", " 3 splits"});
+    EXPECT_EQ(without_times(shared.out), evaluation) << ranks << " ranks";
+  }
+}
+
+// The second point's judges are taught on the table that the ranks have.
+TEST_P(UnderMpi, SweepsAreTheSame) {
+  make_dataset(5);
+  const std::string sweep =
+      "sweep boxes --splits 2 --vary c=3,300 --threads 1 --copies 1 --points 256 --spin-points 32";
+  const auto rates = [](const std::string& text) {
+    Json points = Json::parse(text)["points"];
+    for (Json& point : points) {
+      for (const char* key : {"seconds", "stage_seconds"}) {
+        point.erase(key);
+      }
+    }
+    return points.dump();
+  };
+  const std::string expected = rates(alone(sweep + " --json").out);
+  EXPECT_EQ(rates(run_elsewhere(3, sweep + " --json", {" 15 feature vectors of objects", " 4 splits"}).out), expected);
 }
 
 TEST_P(UnderMpi, OnlyOneRankSpeaks) {

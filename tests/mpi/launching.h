@@ -28,6 +28,9 @@ inline std::string contents(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+// Other ranks do all that they can: what tests teach is else too little to be shared out.
+inline constexpr const char* kShareAlways = "SPINCAT_SHARE=always";
+
 // A make of MPI: its plug-in and its launcher.
 struct Mpi {
   std::string name;      // of the plug-in
@@ -77,8 +80,8 @@ class Launching : public testing::Test {
 
   RunResult alone(const std::string& arguments) { return shell(fmt::format("'{}' {}", SPINCAT_COMMAND, arguments)); }
 
-  RunResult launch(const Mpi& mpi, int ranks, const std::string& arguments) {
-    return shell(fmt::format("{} -n {} '{}' {}", mpi.launcher, ranks, SPINCAT_COMMAND, arguments));
+  RunResult launch(const Mpi& mpi, int ranks, const std::string& arguments, const std::string& environment = "") {
+    return shell(fmt::format("{} -n {} '{}' {}", mpi.launcher, ranks, SPINCAT_COMMAND, arguments), environment);
   }
 
   std::string bytes(const std::string& file) const { return contents(dir_.path() / file); }

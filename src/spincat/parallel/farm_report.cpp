@@ -53,6 +53,9 @@ std::string FarmReport::text() const {
   }
   line += handed_out_again > 0 ? fmt::format("; {} handed out again", counted(handed_out_again, "task"))
                                : "; nothing handed out again";
+  for (const auto& [kind, tasks] : elsewhere) {
+    line += fmt::format("; {} {} elsewhere", tasks, kind);
+  }
   for (std::size_t r = 0; r < ranks.size(); ++r) {
     if (!ranks[r].refusal.empty()) {
       return line + fmt::format("; rank {} could not take part: {}", r, ranks[r].refusal);

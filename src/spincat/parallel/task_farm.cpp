@@ -135,7 +135,8 @@ class TaskFarm::Run {
 
   // Few ranks, or nobody else there.
   bool works_here() const {
-    return job_.stays_here || farm_.ranks_.size() <= kMostRanksToWorkAt ||
+    const bool is_wanted = farm_.ranks_.size() <= kMostRanksToWorkAt && !farm_.shares_always();
+    return job_.stays_here || is_wanted ||
            std::ranges::all_of(farm_.others_, [](const Rank& rank) { return rank.lost || rank.refused; });
   }
 
@@ -210,6 +211,9 @@ class TaskFarm::Run {
     }
     if (!board_.finish(result.task)) {
       return;
+    }
+    if (from != kHere && farm_.shares_always()) {
+      ++farm_.elsewhere_[job_.kind];
     }
     median_.add(result.seconds);
     if (result.outcome == TaskResult::Outcome::done) {
@@ -492,6 +496,7 @@ FarmReport TaskFarm::report() {
   report.seconds = seconds_;
   report.handed_out_again = handed_out_again_;
   report.resumed = resumed_;
+  report.elsewhere = elsewhere_;
   return report;
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -67,6 +68,10 @@ class TaskFarm {
   int threads() const { return threads_; }
   // Whether there is more to a job than this process's threads: other ranks, or a journal.
   bool shares_out() const { return ranks() > 1 || journal_ != nullptr; }
+
+  // For tests: from now on other ranks do all that they can, however little it is, and the report tells what they did.
+  void share_always() { shares_always_ = true; }
+  bool shares_always() const { return shares_always_ && ranks() > 1; }
   int threads_everywhere() const;  // as far as known: ranks that have not spoken yet count like this one
 
   // From now on results are kept in the journal, and those that it has are not computed again. Null: no journal.
@@ -103,6 +108,9 @@ class TaskFarm {
   double seconds_ = 0.0;
   std::size_t handed_out_again_ = 0;
   std::size_t resumed_ = 0;
+  bool shares_always_ = false;
+  std::map<std::string, std::size_t>
+      elsewhere_;  // tasks that other ranks have done, by their kind; where shares_always_
 };
 
 // How long a rank may say nothing before it is taken to be lost: ten times the time between two signs of life. The

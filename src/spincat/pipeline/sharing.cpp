@@ -10,8 +10,8 @@ TeachingPlan plan_of(std::size_t trainings, bool calibrated) {
 
 // Rough: a core does 10^10 products a second, and 10^9 bytes a second leave this process.
 bool pays_to_share(const TableSize& table, const TeachingPlan& plan, const TaskFarm& farm) {
-  if (farm.ranks() < 2) {
-    return false;
+  if (farm.ranks() < 2 || farm.shares_always()) {
+    return farm.ranks() > 1;
   }
   const auto rows = static_cast<double>(table.rows);
   const auto length = static_cast<double>(table.length);

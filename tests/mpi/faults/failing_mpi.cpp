@@ -1,6 +1,7 @@
 // Loaded before an MPI: one call of one function fails on one rank, as when a link breaks, or is where that rank stops
-// (MPI_Init_thread). SPINCAT_FAIL says which, as "1 MPI_Isend 7" (rank, function, number of the call), or "1 memory 7"
-// for a request for 200,000 bytes or more; a file of that name says that it has come.
+// (MPI_Init_thread). SPINCAT_FAIL says which, as "1 MPI_Isend 7" (rank, function, number of the call), "1 MPI_Isend:4
+// 7" (of those with this tag), or "1 memory 7" for a request for 200,000 bytes or more; a file of that name says that
+// it has come.
 #include <dlfcn.h>
 #include <mpi.h>
 
@@ -69,8 +70,9 @@ int MPI_Init_thread(int* count, char*** arguments, int required, int* provided) 
 }
 
 int MPI_Isend(const void* bytes, int count, MPI_Datatype type, int to, int tag, MPI_Comm ranks, MPI_Request* request) {
-  return fails("MPI_Isend") ? MPI_ERR_OTHER
-                            : own(&MPI_Isend, "PMPI_Isend")(bytes, count, type, to, tag, ranks, request);
+  return fails("MPI_Isend") || fails(("MPI_Isend:" + std::to_string(tag)).c_str())
+             ? MPI_ERR_OTHER
+             : own(&MPI_Isend, "PMPI_Isend")(bytes, count, type, to, tag, ranks, request);
 }
 
 int MPI_Imrecv(void* bytes, int count, MPI_Datatype type, MPI_Message* message, MPI_Request* request) {

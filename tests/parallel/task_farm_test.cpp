@@ -386,6 +386,44 @@ TEST(TaskFarm, WhoSpeaksAgainTakesPartAgain) {
   EXPECT_GT(farm.report().handed_out_again, 0U);
 }
 
+// Jobs that are shorter than the deadline, one after the other.
+TEST(TaskFarm, NothingPilesUpForASilentRank) {
+  const Deadline deadline("0.1");
+  const auto wires = std::make_shared<Wires>(2);  // nobody plays rank 1
+  ThreadCommunicator own(wires, 0);
+  TaskFarm farm(own);
+  const std::vector<int> numbers = numbers_up_to(2);
+  for (int round = 0; round < 120; ++round) {
+    Outcome outcome;
+    Job job = squares(numbers, outcome);
+    job.context = [](Packer& packer) { packer.add_rest(std::string(1 << 20, ' ')); };
+    job.work = [](std::string_view task) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      return square("=", task);
+    };
+    farm.run(job);
+    expect_squares(outcome, 2);
+    farm.share("square", job.context);
+  }
+  EXPECT_TRUE(farm.report().ranks[1].lost);
+  EXPECT_LT(wires->bytes_to(1), std::size_t{120} << 20);  // of 240 MB
+}
+
+TEST(TaskFarm, WhoTakesNothingIsDoneWithoutUntilItDoes) {
+  Ranks others(2);
+  TaskFarm farm(others.communicator());
+  farm.share_always();
+  const std::vector<int> numbers = numbers_up_to(20);
+  for (const bool is_slow : {true, false}) {
+    others.wires().slow_down(1, is_slow ? std::size_t{2} << 30 : 0);
+    Outcome outcome;
+    farm.run(squares(numbers, outcome));
+    expect_squares(outcome, 20);
+    EXPECT_EQ(farm.report().elsewhere["square"], is_slow ? 0U : 20U);
+    EXPECT_EQ(farm.report().ranks[1].refusal, "it does not take what it is sent");
+  }
+}
+
 TEST(TaskFarm, ARankThatCannotDoTheWorkIsDoneWithout) {
   const Deadline deadline("0.05");  // it says nothing more, and is not lost
   Ranks others(3);

@@ -16,16 +16,34 @@ namespace spincat::test {
 // The wires between the ranks.
 struct Wires {
   explicit Wires(int ranks)
-      : inbox(static_cast<std::size_t>(ranks)), mute(inbox.size(), false), cut(inbox.size(), false) {}
+      : inbox(static_cast<std::size_t>(ranks)),
+        mute(inbox.size(), false),
+        cut(inbox.size(), false),
+        waiting(inbox.size(), 0) {}
 
   std::mutex mutex;
   std::vector<std::deque<Message>> inbox;
-  std::vector<bool> mute;  // what these ranks say is lost, as if they were dead
-  std::vector<bool> cut;   // whose wire to and from rank 0 is known to be broken
+  std::vector<bool> mute;            // what these ranks say is lost, as if they were dead
+  std::vector<bool> cut;             // whose wire to and from rank 0 is known to be broken
+  std::vector<std::size_t> waiting;  // as if so many bytes to these ranks were on their way besides
 
   void silence(int rank, bool silent = true) {
     const std::lock_guard lock(mutex);
     mute[static_cast<std::size_t>(rank)] = silent;
+  }
+
+  void slow_down(int rank, std::size_t bytes) {
+    const std::lock_guard lock(mutex);
+    waiting[static_cast<std::size_t>(rank)] = bytes;
+  }
+
+  // Nobody has taken.
+  std::size_t bytes_to(int rank) const {
+    std::size_t bytes = waiting[static_cast<std::size_t>(rank)];
+    for (const Message& message : inbox[static_cast<std::size_t>(rank)]) {
+      bytes += message.bytes.size();
+    }
+    return bytes;
   }
 
   void cut_off(int rank) {
@@ -63,6 +81,11 @@ class ThreadCommunicator final : public Communicator {
   }
 
   bool has_sent(int) override { return true; }
+
+  std::size_t bytes_waiting(int to) const override {
+    const std::lock_guard lock(wires_->mutex);
+    return wires_->bytes_to(to);
+  }
 
   Clock::time_point heard(int from) const override {
     const std::lock_guard lock(wires_->mutex);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -41,6 +42,9 @@ class Communicator {
   // Moves on what is on its way to a rank; whether nothing is left of it.
   virtual bool has_sent(int to) = 0;
 
+  // The size of the messages to a rank that wait for others before them.
+  virtual std::size_t bytes_waiting(int to) const = 0;
+
   // When anything last came from a rank, if only a part of a message.
   virtual Clock::time_point heard(int from) const = 0;
 
@@ -64,6 +68,7 @@ class SerialCommunicator final : public Communicator {
   void send(int, int, SharedBytes) override {}
   std::optional<Message> receive() override { return std::nullopt; }
   bool has_sent(int) override { return true; }
+  std::size_t bytes_waiting(int) const override { return 0; }
   Clock::time_point heard(int) const override { return {}; }
   std::size_t under_way() const override { return 0; }
   void give_up(int) override {}

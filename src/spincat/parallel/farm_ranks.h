@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "spincat/parallel/farm_messages.h"
@@ -13,26 +14,40 @@ namespace spincat {
 
 struct TaskFarm::Rank {
   farm::Greeting greeting;
-  int threads = 0;            // once it has said so
-  bool ready = false;         // for the job that is on
-  bool refused = false;       // cannot do the job that is on
-  std::string refusal;        // why, the last time
-  bool lost = false;          // has been silent for too long
-  bool left = false;          // has said good-bye
-  bool given_up = false;      // nobody waits for it any more
-  std::size_t tasks = 0;      // that it has
-  double busy_seconds = 0.0;  // of its threads
-  Clock::time_point last_heard;
+  int threads = 0;               // once it has said so
+  bool ready = false;            // for the job that is on
+  bool refused = false;          // cannot do the job that is on
+  std::string refusal;           // why, the last time
+  bool lost = false;             // has been silent for too long
+  bool left = false;             // has said good-bye
+  bool given_up = false;         // nobody waits for it any more
+  std::size_t tasks = 0;         // that it has
+  double busy_seconds = 0.0;     // of its threads
+  bool owes_answer = false;      // to what it was asked
+  Clock::time_point last_heard;  // or when it was asked, where it owed no answer then
 
   void start_job() {
     ready = false;
     refused = false;
     tasks = 0;
-    last_heard = Clock::now();
+  }
+
+  // Asks for an answer. One that is owed for longer stays so: else a rank would never be lost where jobs are short.
+  void ask(Clock::time_point heard_of) {
+    if (!owes_answer || heard_of > last_heard) {
+      last_heard = Clock::now();
+    }
+    owes_answer = true;
+  }
+
+  void refuse(std::string why) {
+    refused = true;
+    refusal = std::move(why);
   }
 
   void heard() {
     last_heard = Clock::now();
+    owes_answer = false;
     lost = false;
   }
 

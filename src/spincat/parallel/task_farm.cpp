@@ -31,6 +31,8 @@ constexpr std::size_t kMostTasksAhead = 8;
 constexpr double kSecondsAhead = 0.03;
 constexpr std::chrono::milliseconds kBetweenTicks(50);
 constexpr std::chrono::milliseconds kGreetingPatience(2000);
+constexpr std::size_t kMostWaiting = std::size_t{1} << 30;   // bytes to one rank; then it is told nothing more
+constexpr std::size_t kMostForLost = std::size_t{64} << 20;  // the same: it may be there again soon
 constexpr std::chrono::milliseconds kStall(500);  // when we were away so long ourselves, others' silence means nothing
 
 SharedBytes shared(std::string bytes) {
@@ -56,7 +58,7 @@ class TaskFarm::Run {
       Rank& rank = farm_.others_[r];
       rank.ready = false;
       if (started_) {
-        say(r, farm::kEndOfJob, Packer().add(number_).take());
+        farm_.tell(r, farm::kEndOfJob, shared(Packer().add(number_).take()));
       }
     }
   }
@@ -107,10 +109,11 @@ class TaskFarm::Run {
     farm_.resumed_ += known;
     started_ = (known < job_.tasks || job_.tells_all) && !farm_.others_.empty() && !job_.stays_here;
     if (started_) {
+      hear();  // what was said since the last job
       const SharedBytes start = farm_.start_of(number_, job_.kind, job_.context);
       for (std::size_t r = 0; r < farm_.others_.size(); ++r) {
-        farm_.ranks_.send(static_cast<int>(r) + 1, farm::kJob, start);
         farm_.others_[r].start_job();
+        farm_.ask(r, start);
       }
     }
   }
@@ -180,8 +183,7 @@ class TaskFarm::Run {
         break;
       case farm::kRefusal:
         if (fields.get<std::uint32_t>() == number_) {
-          rank.refused = true;
-          rank.refusal = fields.get_text();
+          rank.refuse(std::string(fields.get_text()));
         }
         break;
       case farm::kResult: {
@@ -237,9 +239,9 @@ class TaskFarm::Run {
       return;
     }
     const SharedBytes told = shared(Packer().add(number_).add(std::uint64_t{task}).add_rest(result).take());
-    for (int r = 1; r < farm_.ranks_.size(); ++r) {
-      if (r != from) {
-        farm_.ranks_.send(r, farm::kTold, told);
+    for (std::size_t r = 0; r < farm_.others_.size(); ++r) {
+      if (static_cast<int>(r) + 1 != from) {
+        farm_.tell(r, farm::kTold, told);  // one that misses it cannot take part in what needs it
       }
     }
   }
@@ -325,14 +327,15 @@ class TaskFarm::Run {
   // Takes tasks back from ranks that say nothing.
   void mind_silence() {
     const auto now = Clock::now();
-    if (now - last_look_ < kBetweenTicks) {
+    const auto since = now - farm_.last_look_;
+    if (since < kBetweenTicks) {
       return;
     }
-    const bool stalled = now - last_look_ > kStall;
-    last_look_ = now;
+    const Clock::duration away = since > kStall ? since : Clock::duration(0);
+    farm_.last_look_ = now;
     for (std::size_t r = 0; started_ && r < farm_.others_.size(); ++r) {
       Rank& rank = farm_.others_[r];
-      rank.last_heard = stalled ? now : std::max(rank.last_heard, farm_.ranks_.heard(static_cast<int>(r) + 1));
+      rank.last_heard = std::max(std::min(rank.last_heard + away, now), farm_.ranks_.heard(static_cast<int>(r) + 1));
       const bool is_away = rank.left || now - rank.last_heard > silence_deadline() || farm::has_gone(rank.greeting) ||
                            farm_.ranks_.is_cut_off(static_cast<int>(r) + 1);
       if (!rank.lost && !rank.refused && is_away) {
@@ -371,7 +374,6 @@ class TaskFarm::Run {
   std::map<std::size_t, TaskResult> waiting_;  // for their turn
   RunningMedian median_;                       // seconds a task takes
   Clock::time_point last_tick_;
-  Clock::time_point last_look_ = Clock::now();
   std::unique_ptr<ThreadCrew> crew_;
 };
 
@@ -410,7 +412,30 @@ void TaskFarm::share(const std::string& kind, const Context& context) {
   if (others_.empty()) {
     return;
   }
-  say_to_all(farm::kJob, start_of(++job_, kind, context));
+  const SharedBytes start = start_of(++job_, kind, context);
+  for (std::size_t r = 0; r < others_.size(); ++r) {
+    ask(r, start);
+  }
+}
+
+// Whether the rank takes what it is told: one that is slow, stopped or lost must not cost all our memory.
+bool TaskFarm::tell(std::size_t other, int tag, const SharedBytes& bytes) {
+  const Rank& rank = others_[other];
+  const int number = static_cast<int>(other) + 1;
+  if (ranks_.bytes_waiting(number) > (rank.lost ? kMostForLost : kMostWaiting)) {
+    return false;
+  }
+  ranks_.send(number, tag, bytes);
+  return true;
+}
+
+// What a job begins with; each rank answers it.
+void TaskFarm::ask(std::size_t other, const SharedBytes& job) {
+  if (tell(other, farm::kJob, job)) {
+    others_[other].ask(ranks_.heard(static_cast<int>(other) + 1));
+  } else {
+    others_[other].refuse("it does not take what it is sent");
+  }
 }
 
 void TaskFarm::say_to_all(int tag, const SharedBytes& bytes) {

@@ -44,8 +44,8 @@ struct Job {
 
 // Rank 0's side of the farm; the other ranks serve (task_server.h). A rank that says nothing for longer than the
 // deadline is taken to be lost: its tasks are handed out again, and the first result of a task counts. When it speaks
-// again it takes part again. The results do not depend on the number of threads and ranks, nor on losses.
-// For one thread of rank 0.
+// again it takes part again, but for jobs that need what it has missed: what a rank does not take is not piled up for
+// it. The results do not depend on the number of threads and ranks, nor on losses. For one thread of rank 0.
 class TaskFarm {
  public:
   using Clock = std::chrono::steady_clock;
@@ -94,6 +94,8 @@ class TaskFarm {
   SharedBytes start_of(std::uint32_t job, const std::string& kind, const Context& context) const;
   void greet(Rank& rank, const Message& message);
   void say_to_all(int tag, const SharedBytes& bytes);
+  bool tell(std::size_t other, int tag, const SharedBytes& bytes);
+  void ask(std::size_t other, const SharedBytes& job);
   void dismiss();
 
   Communicator& ranks_;
@@ -103,7 +105,8 @@ class TaskFarm {
   Journal* journal_ = nullptr;
   std::uint32_t job_ = 0;
   std::uint64_t journaled_jobs_ = 0;
-  std::vector<Rank> others_;  // ranks 1, 2, ...
+  std::vector<Rank> others_;                    // ranks 1, 2, ...
+  Clock::time_point last_look_ = Clock::now();  // at who is silent
   double busy_here_ = 0.0;
   double seconds_ = 0.0;
   std::size_t handed_out_again_ = 0;

@@ -54,6 +54,7 @@ struct Piece {
 // Lists, as MPI has the addresses of what they hold.
 struct OutBox {
   std::deque<std::shared_ptr<Outgoing>> waiting;
+  std::size_t bytes_waiting = 0;  // of which nothing was sent
   std::list<Piece> under_way;
 };
 
@@ -148,7 +149,9 @@ class MpiCommunicator final : public Communicator {
     auto message = std::make_shared<Outgoing>();
     message->tag = tag;
     message->bytes = std::move(bytes);
-    out_[static_cast<std::size_t>(to)].waiting.push_back(std::move(message));
+    OutBox& box = out_[static_cast<std::size_t>(to)];
+    box.bytes_waiting += message->bytes->size();
+    box.waiting.push_back(std::move(message));
     move_on_sending(to);
   }
 
@@ -168,6 +171,11 @@ class MpiCommunicator final : public Communicator {
     const std::lock_guard lock(mutex_);
     move_on_sending(to);
     return is_clear(out_[static_cast<std::size_t>(to)]);
+  }
+
+  std::size_t bytes_waiting(int to) const override {
+    const std::lock_guard lock(mutex_);
+    return out_[static_cast<std::size_t>(to)].bytes_waiting;
   }
 
   Clock::time_point heard(int from) const override {
@@ -205,6 +213,7 @@ class MpiCommunicator final : public Communicator {
   void cut_off(int rank) {
     cut_off_[static_cast<std::size_t>(rank)] = true;
     out_[static_cast<std::size_t>(rank)].waiting.clear();
+    out_[static_cast<std::size_t>(rank)].bytes_waiting = 0;
   }
 
   void move_on() {
@@ -249,6 +258,7 @@ class MpiCommunicator final : public Communicator {
     const bool is_first = message->first.empty();
     if (is_first) {
       pack_first(*message);
+      box.bytes_waiting -= message->bytes->size();
     }
     const std::size_t size =
         is_first ? message->first.size() : std::min(kPiece, message->bytes->size() - message->begun);

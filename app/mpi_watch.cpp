@@ -7,10 +7,8 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <map>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -21,7 +19,6 @@
 namespace spincat::app {
 namespace {
 
-namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kBetweenFirstLooks(20);  // a rank that goes unseen is missed only much later
@@ -30,20 +27,14 @@ constexpr std::chrono::seconds kFirst(1);
 constexpr std::chrono::milliseconds kBetweenLastLooks(2);
 constexpr std::chrono::milliseconds kStall(500);  // when we did not look for so long, we were stopped ourselves
 
-fs::path program_of(std::int64_t process) {
-  std::error_code error;
-  return fs::read_symlink(fmt::format("/proc/{}/exe", process), error);
-}
-
 // Processes that our parent has started and that run our program: the ranks of this host, as far as they have come.
 // None where the kernel does not list children.
 std::vector<std::int64_t> ranks_beside_us() {
   std::vector<std::int64_t> ranks;
   const pid_t parent = getppid();
-  const fs::path program = program_of(getpid());
   std::ifstream children(fmt::format("/proc/{0}/task/{0}/children", parent));
   for (std::int64_t child = 0; children >> child;) {
-    if (program_of(child) == program) {
+    if (runs_our_program(child)) {
       ranks.push_back(child);
     }
   }
@@ -109,9 +100,8 @@ class HostRanks {
     Clock::time_point last_running;
   };
 
-  // The number of a process that has gone may be another's by now.
   static void kill_if_ours(std::int64_t rank) {
-    if (program_of(rank) == program_of(getpid())) {
+    if (runs_our_program(rank)) {
       ::kill(static_cast<pid_t>(rank), SIGKILL);
     }
   }

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <functional>
 #include <map>
@@ -15,6 +18,8 @@
 
 #include "parallel/thread_ranks.h"
 #include "spincat/error.h"
+#include "spincat/parallel/farm_messages.h"
+#include "spincat/parallel/process_state.h"
 #include "spincat/parallel/task_server.h"
 #include "support/expect_error.h"
 #include "support/temp_dir.h"
@@ -348,6 +353,104 @@ TEST(TaskServer, LeavesWhenRank0SaysNothingMore) {
   others.wires().silence(0);
   others.join();
   EXPECT_EQ(others.ends(), (std::map{std::pair{1, ServiceEnd::abandoned}}));
+}
+
+// A process that ends when this object does, unless it was killed before.
+class Child {
+ public:
+  explicit Child(const std::function<void()>& body) : process_(fork()) {
+    if (process_ == 0) {
+      body();
+      _exit(0);
+    }
+  }
+  ~Child() { has_ended(true); }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  pid_t process() const { return process_; }
+
+  bool has_ended(bool at_once = false) {
+    if (at_once && !ended_) {
+      kill(process_, SIGKILL);
+    }
+    ended_ = ended_ || waitpid(process_, nullptr, at_once ? 0 : WNOHANG) == process_;
+    return ended_;
+  }
+
+ private:
+  pid_t process_;
+  bool ended_ = false;
+};
+
+// A rank 1 that has said who it is, and nothing else.
+class Introduced {
+ public:
+  explicit Introduced(const std::function<void(farm::Greeting& greeting)>& change) : own_(wires_, 0) {
+    farm::Greeting greeting = farm::own_greeting();
+    change(greeting);
+    ThreadCommunicator(wires_, 1).send(0, farm::kHello, std::make_shared<const std::string>(farm::pack(greeting)));
+  }
+  Communicator& communicator() { return own_; }
+  Wires& wires() { return *wires_; }
+
+ private:
+  std::shared_ptr<Wires> wires_ = std::make_shared<Wires>(2);
+  ThreadCommunicator own_;
+};
+
+// The number of a rank that has gone may be that of another process by now.
+TEST(TaskFarm, KillsNoProcessOfAnotherProgram) {
+  for (const bool is_ours : {false, true}) {
+    Child child([&] {
+      if (!is_ours) {
+        execlp("sleep", "sleep", "100", nullptr);
+      }
+      pause();
+    });
+    while (runs_our_program(child.process()) != is_ours) {  // until it has become another one
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    {
+      Introduced rank([&](farm::Greeting& greeting) { greeting.process = child.process(); });
+      TaskFarm farm(rank.communicator());
+      EXPECT_EQ(farm.report().ranks.size(), 2U);  // it is greeted
+      rank.wires().cut_off(1);
+    }
+    for (int i = 0; i < (is_ours ? 5'000 : 50) && !child.has_ended(); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_EQ(child.has_ended(), is_ours);
+  }
+}
+
+TEST(TaskFarm, WaitsForNobodyWhoWentBeforeTheGreeting) {
+  const Deadline deadline("100");  // ten of these
+  Child child([] {});
+  while (!child.has_ended()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  Introduced rank([&](farm::Greeting& greeting) { greeting.process = child.process(); });
+  const TaskFarm farm(rank.communicator());
+}
+
+TEST(TaskFarm, ARankOfAnotherVersionSpoilsNoResult) {
+  const Deadline deadline("0.05");
+  const auto change = [](farm::Greeting& greeting) {
+    greeting.program = "spincat 0";
+    greeting.process = 0;
+  };
+  {
+    Introduced late(change);
+    TaskFarm farm(late.communicator());
+    EXPECT_EQ(farm.report().ranks.size(), 2U);
+  }
+  Introduced early(change);
+  TaskFarm farm(early.communicator());
+  Outcome outcome;
+  const std::vector<int> numbers = numbers_up_to(20);
+  test::expect_error<RunError>([&] { farm.run(squares(numbers, outcome)); },
+                               "rank 1 runs spincat 0, rank 0 another version: all hosts need the same program");
 }
 
 TEST(FarmReport, ARankThatNeverSaidWhereItIsIsOnNoHost) {

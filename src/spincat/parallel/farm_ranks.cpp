@@ -13,7 +13,7 @@ bool TaskFarm::Rank::should_be_given_up(Clock::duration silent, bool is_cut_off)
   }
   const bool in_sight = farm::is_in_our_sight(greeting);
   const bool stopped = in_sight && is_stopped(greeting.process) && silent > std::chrono::milliseconds(500);
-  if (in_sight && (stopped || is_cut_off)) {
+  if (in_sight && (stopped || is_cut_off) && runs_our_program(greeting.process)) {
     ::kill(static_cast<pid_t>(greeting.process), SIGKILL);
   }
   return stopped || is_cut_off || silent > silence_deadline() * (lost ? 1 : 10);

@@ -1,11 +1,14 @@
 #include "spincat/parallel/process_state.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <string>
+#include <system_error>
 
 namespace spincat {
 namespace {
@@ -17,6 +20,12 @@ char state_of(std::int64_t process) {
   std::getline(stream, line);
   const std::size_t name_end = line.rfind(')');  // the name may hold anything
   return name_end == std::string::npos || name_end + 2 >= line.size() ? '\0' : line[name_end + 2];
+}
+
+// Empty where it cannot be seen.
+std::filesystem::path program_of(std::int64_t process) {
+  std::error_code error;
+  return std::filesystem::read_symlink(fmt::format("/proc/{}/exe", process), error);
 }
 
 }  // namespace
@@ -31,6 +40,11 @@ bool is_there(std::int64_t process) {
 
 bool is_stopped(std::int64_t process) {
   return state_of(process) == 'T';
+}
+
+bool runs_our_program(std::int64_t process) {
+  static const std::filesystem::path own = program_of(getpid());
+  return !own.empty() && program_of(process) == own;
 }
 
 }  // namespace spincat

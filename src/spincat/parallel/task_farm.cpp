@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <map>
 #include <memory>
 #include <optional>
@@ -467,6 +468,15 @@ void TaskFarm::greet(Rank& rank, const Message& message) {
   }
 }
 
+// When the work is over, whatever is wrong with a rank costs nothing any more.
+void TaskFarm::greet_late(Rank& rank, const Message& message) {
+  try {
+    greet(rank, message);
+  } catch (const std::exception&) {
+    return;
+  }
+}
+
 // None may leave before all can: MPI ends well only where all come to its end together.
 void TaskFarm::dismiss() {
   say_to_all(farm::kQuit, shared({}));
@@ -482,7 +492,7 @@ void TaskFarm::dismiss() {
       heard = true;
       Rank& rank = others_[static_cast<std::size_t>(message->from) - 1];
       rank.heard();
-      rank.left = rank.left || message->tag == farm::kBye;
+      greet_late(rank, *message);
     }
     const auto now = Clock::now();
     const bool stalled = now - last_look > kStall;
@@ -508,7 +518,7 @@ FarmReport TaskFarm::report() {
   const auto unknown = [](const Rank& rank) { return rank.greeting.host.empty() && !rank.lost; };
   while (std::ranges::any_of(others_, unknown) && Clock::now() - start < kGreetingPatience) {
     if (const std::optional<Message> message = ranks_.receive()) {
-      greet(others_[static_cast<std::size_t>(message->from) - 1], *message);
+      greet_late(others_[static_cast<std::size_t>(message->from) - 1], *message);
     } else {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }

@@ -93,6 +93,7 @@ class TaskFarm {
 
   SharedBytes start_of(std::uint32_t job, const std::string& kind, const Context& context) const;
   void greet(Rank& rank, const Message& message);
+  void greet_late(Rank& rank, const Message& message);
   void say_to_all(int tag, const SharedBytes& bytes);
   bool tell(std::size_t other, int tag, const SharedBytes& bytes);
   void ask(std::size_t other, const SharedBytes& job);

@@ -7,6 +7,8 @@
 
 #include "messages.h"
 #include "ranks.h"
+#include "spincat/error.h"
+#include "spincat/io/locked_file.h"
 #include "spincat/parallel/for_each.h"
 #include "spincat/parallel/task_farm.h"
 #include "spincat/pipeline/settings_json.h"
@@ -50,8 +52,22 @@ void FarmRun::keep_journal(const fs::path& output, const std::function<RunIdenti
   // The other division cuts the work into other tasks.
   RunIdentity whose = identity();
   whose.settings += " " + run_.divide;
-  journal_.emplace(file, whose);
-  farm_.use_journal(&*journal_);
+  const auto go_on_without = [](const RunError& problem) {
+    message(fmt::format("{}; going on without a journal", problem.what()));
+  };
+  try {
+    journal_.emplace(file, whose);
+  } catch (const InUseError&) {
+    throw;
+  } catch (const RunError& problem) {
+    if (run_.journal) {
+      throw;
+    }
+    go_on_without(problem);
+    return;
+  }
+  using TellFailure = std::function<void(const RunError&)>;
+  farm_.use_journal(&*journal_, run_.journal ? TellFailure() : TellFailure(go_on_without));
   if (journal_->size() > 0 && !run_.quiet) {
     message(fmt::format("{}: going on after {} finished task{}", file.string(), journal_->size(),
                         journal_->size() == 1 ? "" : "s"));

@@ -25,7 +25,8 @@ class FarmRun {
   FarmRun& operator=(const FarmRun&) = delete;
 
   // Keeps finished tasks where the user wants them; with several ranks also where he did not say so: beside `output`,
-  // unless this is empty or no regular file. Throws as Journal does.
+  // unless this is empty or no regular file. Throws as Journal does, but for a journal that the user did not ask for
+  // and that cannot be written: then he is told, and there is none.
   // `identity` is only asked for where there is a journal.
   void keep_journal(const std::filesystem::path& output, const std::function<RunIdentity()>& identity);
 

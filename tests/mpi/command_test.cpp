@@ -165,6 +165,16 @@ TEST_P(UnderMpi, WarnsOfMoreThreadsThanProcessors) {
   EXPECT_NE(result.err.find("2 ranks of 999 threads share the "), std::string::npos) << result.err;
 }
 
+TEST_P(UnderMpi, AJournalThatNobodyAskedForMayFail) {
+  make_scan("scan.off", 6);
+  fs::create_directory(dir_.path() / "images.npy.journal");
+  const RunResult result = run(2, "spin scan.off -o images.npy");
+  EXPECT_NE(result.err.find("spincat: images.npy.journal: cannot write: is a directory; going on without a journal\n"),
+            std::string::npos)
+      << result.err;
+  EXPECT_NE(launch(GetParam(), 2, "spin scan.off -o images.npy --journal images.npy.journal").code, 0);
+}
+
 class Singletons : public Launching {};
 
 // A launcher that speaks to another MPI starts processes that each believe to be alone.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -605,6 +606,52 @@ TEST(TaskFarm, TellsNobodyWhatIsNotWanted) {
     expect_squares(outcome, 50);
   }
   EXPECT_LE(others.kept(1).size() + others.kept(2).size(), 50U);  // each at most what it has found itself
+}
+
+// No file becomes longer than this, as on a full disk.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    rlimit limit = before_;
+    limit.rlim_cur = bytes;
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int) = std::signal(SIGXFSZ, SIG_IGN);
+};
+
+TEST(TaskFarm, AJournalNobodyAskedForMayFail) {
+  const test::TempDir dir;
+  const std::vector<int> numbers = numbers_up_to(60);
+  Journal journal(dir.path() / "j", {"settings", "data"});
+  int told = 0;
+  for (const bool is_asked_for : {false, true}) {
+    OwnFarm own(2);
+    const FileSizeLimit limit(1'000);
+    own.farm().use_journal(
+        &journal, is_asked_for ? std::function<void(const RunError&)>() : [&](const RunError&) { ++told; });
+    for (const int round : {0, 1}) {
+      Outcome outcome;
+      if (is_asked_for) {
+        test::expect_error<RunError>([&] { own.farm().run(squares(numbers, outcome)); }, "cannot write: ");
+      } else {
+        own.farm().run(squares(numbers, outcome));
+        expect_squares(outcome, 60);
+      }
+      EXPECT_EQ(told, 1) << round;
+    }
+    EXPECT_GT(journal.size(), 0U);
+    EXPECT_LT(journal.size(), 60U);
+  }
 }
 
 TEST(TaskFarm, GoesOnWhereTheJournalEnds) {

@@ -37,7 +37,7 @@ int open_locked(const std::filesystem::path& name) {
 }  // namespace
 
 LockedFile::LockedFile(std::filesystem::path name) : name_(std::move(name)), descriptor_(open_locked(name_)) {
-  if (descriptor_ < 0 && errno == EWOULDBLOCK) throw RunError(name_.string(), "is in use by another run");
+  if (descriptor_ < 0 && errno == EWOULDBLOCK) throw InUseError(name_.string(), "is in use by another run");
   if (descriptor_ < 0) fail("cannot write");
 }
 

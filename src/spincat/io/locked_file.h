@@ -7,12 +7,20 @@
 #include <string>
 #include <string_view>
 
+#include "spincat/error.h"
+
 namespace spincat {
+
+// Another run holds the lock.
+class InUseError : public RunError {
+ public:
+  using RunError::RunError;
+};
 
 class LockedFile {
  public:
   // Opens `name`, or begins an empty file, and holds a lock on it (flock) until the end. Throws RunError when it cannot
-  // be opened for writing or another run holds the lock. A file system without locks lets everybody in.
+  // be opened for writing, InUseError when another run holds the lock. A file system without locks lets everybody in.
   explicit LockedFile(std::filesystem::path name);
   ~LockedFile();
   LockedFile(const LockedFile&) = delete;

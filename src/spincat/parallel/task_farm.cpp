@@ -223,9 +223,24 @@ class TaskFarm::Run {
       tell_others(from, result.task, result.bytes);
     }
     if (journal_ != nullptr && result.outcome == TaskResult::Outcome::done) {
-      journal_->add(journal_job_, result.task, result.bytes);
+      keep(result);
     }
     waiting_.emplace(result.task, std::move(result));
+  }
+
+  void keep(const TaskResult& result) {
+    if (farm_.journal_is_full_) {
+      return;
+    }
+    try {
+      journal_->add(journal_job_, result.task, result.bytes);
+    } catch (const RunError& problem) {
+      if (!farm_.tell_journal_failure_) {
+        throw;
+      }
+      farm_.journal_is_full_ = true;
+      farm_.tell_journal_failure_(problem);
+    }
   }
 
   // All but the rank that has made it.
@@ -395,6 +410,12 @@ TaskFarm::~TaskFarm() {
 void TaskFarm::use_threads(int here, int requested) {
   threads_ = here;
   requested_threads_ = requested;
+}
+
+void TaskFarm::use_journal(Journal* journal, std::function<void(const RunError& problem)> tell_failure) {
+  journal_ = journal;
+  journal_is_full_ = false;
+  tell_journal_failure_ = std::move(tell_failure);
 }
 
 int TaskFarm::threads_everywhere() const {

@@ -74,8 +74,10 @@ class TaskFarm {
   bool shares_always() const { return shares_always_ && ranks() > 1; }
   int threads_everywhere() const;  // as far as known: ranks that have not spoken yet count like this one
 
-  // From now on results are kept in the journal, and those that it has are not computed again. Null: no journal.
-  void use_journal(Journal* journal) { journal_ = journal; }
+  // From now on results are kept in the journal, and those that it has are not computed again. Null: no journal. Where
+  // there is a `tell_failure`, a journal that can no longer be written ends no job: it is called once, and nothing more
+  // is kept.
+  void use_journal(Journal* journal, std::function<void(const RunError& problem)> tell_failure = {});
 
   // Does all tasks. Throws what `deliver` and `tick` throw, and the problem of the first task, in their order, that has
   // one (InputError or RunError).
@@ -104,6 +106,8 @@ class TaskFarm {
   int threads_ = 1;
   int requested_threads_ = 1;
   Journal* journal_ = nullptr;
+  bool journal_is_full_ = false;
+  std::function<void(const RunError& problem)> tell_journal_failure_;
   std::uint32_t job_ = 0;
   std::uint64_t journaled_jobs_ = 0;
   std::vector<Rank> others_;                    // ranks 1, 2, ...

@@ -6,10 +6,9 @@
 #include <string_view>
 
 #include "messages.h"
-#include "ranks.h"
 #include "spincat/error.h"
 #include "spincat/io/locked_file.h"
-#include "spincat/parallel/for_each.h"
+#include "spincat/parallel/placement.h"
 #include "spincat/parallel/task_farm.h"
 #include "spincat/pipeline/settings_json.h"
 
@@ -18,14 +17,14 @@ namespace spincat::app {
 namespace fs = std::filesystem;
 
 FarmRun::FarmRun(TaskFarm& farm, const RunOptions& run) : farm_(farm), run_(run) {
-  const int ranks_on_host = farm.ranks_on_host();
-  const int threads = thread_count(run.threads, ranks_on_host);
+  const Placement placement = farm.placement();
+  const int threads = thread_count(run.threads, placement);
   farm.use_threads(threads, run.threads);
   if (const char* share = std::getenv("SPINCAT_SHARE"); share != nullptr && std::string_view(share) == "always") {
     farm.share_always();
   }
   if (farm.ranks() > 1 && !run.quiet) {
-    for (const std::string& warning : placement_warnings(threads, ranks_on_host)) {
+    for (const std::string& warning : placement_warnings(threads, placement)) {
       message(warning);
     }
   }

@@ -26,7 +26,7 @@
 #include "mpi_watch.h"
 #include "ranks.h"
 #include "spincat/error.h"
-#include "spincat/parallel/for_each.h"
+#include "spincat/parallel/placement.h"
 #include "spincat/parallel/task_farm.h"
 #include "spincat/parallel/task_server.h"
 #include "spincat/pipeline/task_kinds.h"
@@ -128,7 +128,7 @@ int run(int argc, char** argv, TaskFarm& farm) {
 // What goes wrong here costs rank 0 a worker and not the result: whether there is one, its exit code says.
 int work_for_rank0(Communicator& ranks, const Launch& launch) {
   ServiceRules rules;
-  rules.thread_count = [&](int requested) { return thread_count(requested, ranks.ranks_on_host()); };
+  rules.thread_count = [&](int requested) { return thread_count(requested, placement_of(ranks)); };
   rules.keep_going = stop_if_interrupted;
   rules.leaves_silent_rank0 = launch.outlives_ranks;
   try {

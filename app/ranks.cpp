@@ -11,7 +11,6 @@
 #include <system_error>
 
 #include "spincat/error.h"
-#include "spincat/parallel/for_each.h"
 #include "spincat/parallel/mpi/mpi_plugin.h"
 
 namespace spincat::app {
@@ -142,22 +141,6 @@ std::unique_ptr<Communicator> join_ranks(const Launch& launch) {
   throw RunError(fmt::format("{} has started {} processes, but there is no MPI for it{}{}", launch.launcher,
                              launch.processes, tried.empty() ? "" : fmt::format(" ({})", fmt::join(tried, "; ")),
                              advice(launch)));
-}
-
-std::vector<std::string> placement_warnings(int threads, int ranks_on_host) {
-  std::vector<std::string> warnings;
-  const int allowed = allowed_processors();
-  const int all = all_processors();
-  if (threads > allowed && allowed < all) {
-    warnings.push_back(fmt::format(
-        "{} threads share the {} processor{} that the launcher has bound this rank to (mpirun --bind-to none, "
-        "srun --cpus-per-task)",
-        threads, allowed, allowed == 1 ? "" : "s"));
-  } else if (threads * ranks_on_host > all) {
-    warnings.push_back(fmt::format("{} ranks of {} thread{} share the {} processors of this host", ranks_on_host,
-                                   threads, threads == 1 ? "" : "s", all));
-  }
-  return warnings;
 }
 
 }  // namespace spincat::app

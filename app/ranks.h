@@ -25,7 +25,4 @@ Launch read_launch();
 // processes than were started: each of them would do the whole work.
 std::unique_ptr<Communicator> join_ranks(const Launch& launch);
 
-// What ruins parallel runs: threads that share a processor without need. One line each.
-std::vector<std::string> placement_warnings(int threads, int ranks_on_host);
-
 }  // namespace spincat::app

@@ -1,5 +1,6 @@
 // The command under mpirun: the same files as without, whatever the MPI, the ranks and the threads.
 #include <gtest/gtest.h>
+#include <sched.h>
 
 #include <nlohmann/json.hpp>
 
@@ -163,6 +164,26 @@ TEST_P(UnderMpi, WarnsOfMoreThreadsThanProcessors) {
   make_scan("scan.off", 6);
   const RunResult result = run(2, "spin scan.off -o images.npy --threads 999");
   EXPECT_NE(result.err.find("2 ranks of 999 threads share the "), std::string::npos) << result.err;
+}
+
+// As in a container or a batch job that may use a part of the machine.
+TEST_P(UnderMpi, RanksShareTheProcessorsThatAllAreBoundTo) {
+  cpu_set_t allowed;
+  if (sched_getaffinity(0, sizeof(allowed), &allowed) != 0 || CPU_COUNT(&allowed) < 2) {
+    GTEST_SKIP() << "there is only one processor";
+  }
+  make_scan("scan.off", 6);
+  int first = 0;
+  while (!CPU_ISSET(first, &allowed)) {
+    ++first;
+  }
+  const RunResult result =
+      launch(GetParam(), 2, "spin scan.off -o images.npy", fmt::format("{} taskset -c {}", kShareAlways, first));
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.err.find("2 ranks of 1 thread share the 1 processor that the launcher has bound them to"),
+            std::string::npos)
+      << result.err;
+  EXPECT_NE(result.err.find("2 ranks on 1 host, 2 threads"), std::string::npos) << result.err;
 }
 
 TEST_P(UnderMpi, AJournalThatNobodyAskedForMayFail) {

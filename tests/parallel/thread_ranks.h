@@ -59,6 +59,7 @@ class ThreadCommunicator final : public Communicator {
   int rank() const override { return rank_; }
   int size() const override { return static_cast<int>(wires_->inbox.size()); }
   int ranks_on_host() const override { return size(); }
+  int ranks_on_processors() const override { return size(); }
   std::string implementation() const override { return "threads"; }
 
   void send(int to, int tag, SharedBytes bytes) override {

@@ -30,6 +30,7 @@ class Communicator {
   virtual int rank() const = 0;  // of this process, 0 to size() - 1
   virtual int size() const = 0;
   virtual int ranks_on_host() const = 0;           // how many ranks share this machine, this one included
+  virtual int ranks_on_processors() const = 0;     // those of them that may run on the same processors as this one
   virtual std::string implementation() const = 0;  // "Open MPI 4.1.4"; empty without MPI
 
   // Sends bytes of any length; returns at once. Messages from one rank to another arrive in the order in which they
@@ -64,6 +65,7 @@ class SerialCommunicator final : public Communicator {
   int rank() const override { return 0; }
   int size() const override { return 1; }
   int ranks_on_host() const override { return 1; }
+  int ranks_on_processors() const override { return 1; }
   std::string implementation() const override { return {}; }
   void send(int, int, SharedBytes) override {}
   std::optional<Message> receive() override { return std::nullopt; }

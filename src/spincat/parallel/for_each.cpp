@@ -26,14 +26,6 @@ int thread_count(int requested) {
   return requested > 0 ? requested : allowed_processors();
 }
 
-int thread_count(int requested, int ranks_on_host) {
-  if (requested > 0) {
-    return requested;
-  }
-  const int allowed = allowed_processors();
-  return allowed < all_processors() ? allowed : std::max(1, allowed / std::max(1, ranks_on_host));
-}
-
 void for_each_index(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {
   share_out(count, threads, body);
 }

@@ -9,10 +9,6 @@ namespace spincat {
 // The number of threads to use when the user asks for `requested`: all processors this process may run on for 0.
 int thread_count(int requested);
 
-// The same for a process that shares its machine with other ranks: for 0, its part of the processors, or all of those
-// it may run on where the launcher has bound it to some.
-int thread_count(int requested, int ranks_on_host);
-
 // Processors this process may run on, and processors of this machine.
 int allowed_processors();
 int all_processors();

@@ -15,6 +15,7 @@
 #include "spincat/parallel/farm_report.h"
 #include "spincat/parallel/journal.h"
 #include "spincat/parallel/packing.h"
+#include "spincat/parallel/placement.h"
 #include "spincat/parallel/task.h"
 
 namespace spincat {
@@ -60,7 +61,7 @@ class TaskFarm {
   TaskFarm& operator=(const TaskFarm&) = delete;
 
   int ranks() const { return ranks_.size(); }
-  int ranks_on_host() const { return ranks_.ranks_on_host(); }
+  Placement placement() const { return placement_of(ranks_); }
   std::string mpi() const { return ranks_.implementation(); }
 
   // Threads of this process, and as many as the user asked for elsewhere (0: as many as there are).

@@ -4,6 +4,7 @@
 // begins with the length of the whole; so no length overflows MPI's counts, and a rank that dies in the middle of a
 // message leaves nobody waiting inside MPI.
 #include <mpi.h>
+#include <sched.h>
 
 #include <algorithm>
 #include <array>
@@ -98,6 +99,20 @@ void let_go(std::list<Piece>& pieces, std::list<Piece>& kept) {
   }
 }
 
+// How many of the ranks of this host may run on the same processors as this one.
+int ranks_bound_alike(MPI_Comm host, int ranks) {
+  using Processors = std::array<char, sizeof(cpu_set_t)>;
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  sched_getaffinity(0, sizeof(allowed), &allowed);
+  Processors own{};
+  std::memcpy(own.data(), &allowed, sizeof(allowed));
+  std::vector<Processors> of_ranks(static_cast<std::size_t>(ranks), own);
+  MPI_Allgather(own.data(), static_cast<int>(own.size()), MPI_BYTE, of_ranks.data(), static_cast<int>(own.size()),
+                MPI_BYTE, host);
+  return static_cast<int>(std::ranges::count(of_ranks, own));
+}
+
 class MpiCommunicator final : public Communicator {
  public:
   MpiCommunicator() {
@@ -106,6 +121,7 @@ class MpiCommunicator final : public Communicator {
     MPI_Comm host = MPI_COMM_NULL;
     MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &host);
     MPI_Comm_size(host, &ranks_on_host_);
+    ranks_on_processors_ = ranks_bound_alike(host, ranks_on_host_);
     MPI_Comm_free(&host);
     out_.resize(static_cast<std::size_t>(size_));
     in_.resize(static_cast<std::size_t>(size_));
@@ -130,6 +146,7 @@ class MpiCommunicator final : public Communicator {
   int rank() const override { return rank_; }
   int size() const override { return size_; }
   int ranks_on_host() const override { return ranks_on_host_; }
+  int ranks_on_processors() const override { return ranks_on_processors_; }
 
   std::string implementation() const override {
     std::array<char, MPI_MAX_LIBRARY_VERSION_STRING> text{};
@@ -358,6 +375,7 @@ class MpiCommunicator final : public Communicator {
   int rank_ = 0;
   int size_ = 1;
   int ranks_on_host_ = 1;
+  int ranks_on_processors_ = 1;
   mutable std::mutex mutex_;  // of all that follows, and of messages in MPI
   int next_source_ = 0;
   std::vector<OutBox> out_;

@@ -7,7 +7,7 @@
 namespace spincat {
 
 // Changes with Communicator: a plug-in of another version is not used.
-inline constexpr int kMpiPluginVersion = 5;
+inline constexpr int kMpiPluginVersion = 6;
 inline constexpr const char* kMpiPluginVersionName = "spincat_mpi_plugin_version";
 inline constexpr const char* kJoinRanksName = "spincat_join_ranks";
 

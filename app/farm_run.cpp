@@ -16,6 +16,14 @@ namespace spincat::app {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+std::string finished_tasks(std::size_t count) {
+  return fmt::format("{} finished task{}", count, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
 FarmRun::FarmRun(TaskFarm& farm, const RunOptions& run) : farm_(farm), run_(run) {
   const Placement placement = farm.placement();
   const int threads = thread_count(run.threads, placement);
@@ -67,15 +75,19 @@ void FarmRun::keep_journal(const fs::path& output, const std::function<RunIdenti
   }
   using TellFailure = std::function<void(const RunError&)>;
   farm_.use_journal(&*journal_, run_.journal ? TellFailure() : TellFailure(go_on_without));
-  if (journal_->size() > 0 && !run_.quiet) {
-    message(fmt::format("{}: going on after {} finished task{}", file.string(), journal_->size(),
-                        journal_->size() == 1 ? "" : "s"));
+  found_ = journal_->size();
+  if (found_ > 0 && !run_.quiet) {
+    message(fmt::format("{}: has {}", file.string(), finished_tasks(found_)));
   }
 }
 
 void FarmRun::finish() {
   if (journal_) {
     farm_.use_journal(nullptr);
+    if (found_ > 0 && !run_.quiet) {  // as many as were cut alike
+      message(
+          fmt::format("{}: {} of {} were of use", journal_->file().string(), farm_.resumed(), finished_tasks(found_)));
+    }
     journal_->remove();
     journal_.reset();
   }

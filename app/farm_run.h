@@ -1,6 +1,7 @@
 // How a command uses the farm: its options, its journal, and what is told about it.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -37,6 +38,7 @@ class FarmRun {
   TaskFarm& farm_;
   const RunOptions& run_;
   std::optional<Journal> journal_;
+  std::size_t found_ = 0;  // finished tasks, when it was opened
 };
 
 // What decides about the results of a command: its name, settings, and whatever else it depends on.

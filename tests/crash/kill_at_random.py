@@ -100,7 +100,7 @@ class Rounds:
         words = (self.folder / ".err").read_text()
         if code != 0:
             self.fail(f"{job_name}: the same command again: exit code {code}: {words}")
-        self.counts["resumed"] += "going on after" in words
+        self.counts["resumed"] += "finished task" in words
         there = {n: b for n, b in files_of(self.folder).items() if n not in self.inputs}
         if set(there) != set(job.results):
             self.fail(f"{job_name}: after the same command again there are {sorted(there)}")

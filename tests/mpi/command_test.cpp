@@ -233,6 +233,19 @@ TEST_F(Singletons, OneProcessNeedsNoMpi) {
 
 class Journals : public Launching {};
 
+TEST_F(Journals, TellHowMuchOfThemWasOfUse) {
+  make_scan("scan.off", 32);
+  const std::string spin = "spin scan.off -o images.npy --image-width 16 --threads 1 --journal run.journal";
+  // Four tasks of half a megabyte.
+  const RunResult ended = shell(fmt::format("'{}' {}", SPINCAT_COMMAND, spin), "prlimit --fsize=1200000");
+  EXPECT_NE(ended.code, 0);
+  const RunResult again = alone(spin);
+  EXPECT_EQ(again.code, 0);
+  EXPECT_NE(again.err.find("spincat: run.journal: has 2 finished tasks\n"), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find("spincat: run.journal: 2 of 2 finished tasks were of use\n"), std::string::npos)
+      << again.err;
+}
+
 TEST_F(Journals, OfAnotherRunAreRefused) {
   make_scan("scan.off", 8);
   const std::string spin = "spin scan.off -o images.npy --journal run.journal ";

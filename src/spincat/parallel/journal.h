@@ -28,6 +28,7 @@ class Journal {
   // other settings or data, RunError when it cannot be written or another run is using it.
   Journal(std::filesystem::path file, const RunIdentity& identity);
 
+  const std::filesystem::path& file() const { return file_.name(); }
   std::size_t size() const { return records_.size(); }  // finished tasks
   bool has(std::uint64_t job, std::uint64_t task) const { return records_.contains({job, task}); }
   std::optional<std::string> find(std::uint64_t job, std::uint64_t task) const;

@@ -70,6 +70,8 @@ class TaskFarm {
   // Whether there is more to a job than this process's threads: other ranks, or a journal.
   bool shares_out() const { return ranks() > 1 || journal_ != nullptr; }
 
+  std::size_t resumed() const { return resumed_; }  // tasks that the journal had, so far
+
   // For tests: from now on other ranks do all that they can, however little it is, and the report tells what they did.
   void share_always() { shares_always_ = true; }
   bool shares_always() const { return shares_always_ && ranks() > 1; }

@@ -119,5 +119,26 @@ TEST(FilesIdentity, NoticesAnotherNameSizeOrTime) {
   EXPECT_NE(longer, identity("a"));
 }
 
+TEST(FilesIdentity, NoticesAnotherBufferOfAGltfFile) {
+  const test::TempDir dir;
+  dir.write("a.gltf", "{}");
+  dir.write("b.off", "OFF");
+  dir.write("a.bin", "1");
+  const auto identity = [&](const char* name) {
+    FilesIdentity files;
+    files.add(dir.path() / name);
+    files.add(dir.path() / name);
+    return files.text();
+  };
+  const std::string gltf = identity("a.gltf");
+  const std::string off = identity("b.off");
+  EXPECT_EQ(gltf.substr(0, 7), "2 files");
+  dir.write("a.journal", "something that the run itself writes");
+  EXPECT_EQ(identity("a.gltf"), gltf);
+  dir.write("a.bin", "12");
+  EXPECT_NE(identity("a.gltf"), gltf);
+  EXPECT_EQ(identity("b.off"), off);
+}
+
 }  // namespace
 }  // namespace spincat

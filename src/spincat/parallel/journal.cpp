@@ -5,7 +5,9 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstring>
+#include <system_error>
 #include <utility>
 
 #include "spincat/error.h"
@@ -37,6 +39,12 @@ bool checks(std::string_view bytes) {
 
 std::string head_of(const RunIdentity& identity) {
   return with_checksum(Packer().add(kMagic).add(identity.settings).add(identity.data).take());
+}
+
+std::string lower_extension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension;
 }
 
 }  // namespace
@@ -123,12 +131,38 @@ std::uint64_t job_key(std::uint64_t place, std::string_view kind, std::uint64_t 
 }
 
 void FilesIdentity::add(const std::filesystem::path& file) {
+  add_one(file);
+  ++files_;
+  const std::string extension = lower_extension(file);
+  if (extension == ".gltf" || extension == ".glb") {
+    add_buffers(file.parent_path());
+  }
+}
+
+void FilesIdentity::add_buffers(const std::filesystem::path& folder) {
+  if (!folders_of_buffers_.insert(folder).second) {
+    return;
+  }
+  std::set<std::filesystem::path> buffers;  // in an order of their own, not of the folder
+  std::error_code error;
+  std::filesystem::directory_iterator entry(folder.empty() ? "." : folder, error);
+  for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
+    const std::string extension = lower_extension(entry->path());
+    if (extension == ".bin" || extension == ".glbin" || extension == ".glbuf") {
+      buffers.insert(entry->path());
+    }
+  }
+  for (const std::filesystem::path& buffer : buffers) {
+    add_one(buffer);
+  }
+}
+
+void FilesIdentity::add_one(const std::filesystem::path& file) {
   struct stat status = {};
   hash_ = hash_of(file.string(), hash_);
   if (::stat(file.c_str(), &status) == 0) {
     hash_ = hash_of(fmt::format("|{}|{}.{}\n", status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec), hash_);
   }
-  ++files_;
 }
 
 std::string FilesIdentity::text() const {

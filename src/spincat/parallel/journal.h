@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -62,14 +63,19 @@ std::uint64_t hash_of(std::string_view bytes, std::uint64_t before = 0);
 std::uint64_t job_key(std::uint64_t place, std::string_view kind, std::uint64_t tasks, std::uint64_t content);
 
 // Names, sizes and times of last change of files, as one short text for RunIdentity::data. Files that are not there
-// count as such.
+// count as such. With a .gltf or .glb file count the files of buffers that lie beside it (.bin, .glbin, .glbuf): it may
+// name any of them.
 class FilesIdentity {
  public:
   void add(const std::filesystem::path& file);
   std::string text() const;
 
  private:
+  void add_one(const std::filesystem::path& file);
+  void add_buffers(const std::filesystem::path& folder);
+
   std::uint64_t hash_ = 0;
+  std::set<std::filesystem::path> folders_of_buffers_;  // that were added
   std::size_t files_ = 0;
 };
 

@@ -229,7 +229,7 @@ class TaskFarm::Run {
   }
 
   void keep(const TaskResult& result) {
-    if (farm_.journal_is_full_) {
+    if (farm_.journal_is_full_ || (job_.is_worth_keeping && !job_.is_worth_keeping(result.bytes))) {
       return;
     }
     try {

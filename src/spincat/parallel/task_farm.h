@@ -34,9 +34,10 @@ struct Job {
   std::size_t tasks = 0;
   std::function<std::string(std::size_t task)> task;  // what is to be done, as bytes
   std::function<void(std::size_t task, std::string result)>
-      deliver;              // on the calling thread, in the order of the tasks
-  bool in_journal = true;   // false where results are large, or soon computed again
-  bool stays_here = false;  // for the threads of this process alone
+      deliver;             // on the calling thread, in the order of the tasks
+  bool in_journal = true;  // false where results are large, or soon computed again
+  std::function<bool(std::string_view result)> is_worth_keeping;  // in the journal; empty: every result is
+  bool stays_here = false;                                        // for the threads of this process alone
   // Whether all ranks are to be told all results, as they come (RankWork::keep): every rank that takes part then knows
   // them before it hears of the next job. Asked with one result after the other until it says so; those for which it
   // says nothing are not told. Empty: no.

@@ -89,6 +89,7 @@ void classify_files(TaskFarm& farm, const ClassifyJob& job, const std::function<
   tasks.work = [&](std::string_view file) {
     return pack(answer_for(job.model, std::filesystem::path(file), job.limits));
   };
+  tasks.is_worth_keeping = has_no_problem;
   tasks.tasks = job.files;
   tasks.task = [&](std::size_t i) { return job.file(i).string(); };
   tasks.deliver = [&](std::size_t i, const std::string& result) {

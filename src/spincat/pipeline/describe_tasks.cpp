@@ -8,8 +8,8 @@
 #include "spincat/error.h"
 #include "spincat/io/read_object.h"
 #include "spincat/pipeline/packed_features.h"
-#include "spincat/pipeline/rank_problems.h"
 #include "spincat/pipeline/packed_limits.h"
+#include "spincat/pipeline/rank_problems.h"
 #include "spincat/pipeline/settings_json.h"
 #include "spincat/pipeline/stopwatch.h"
 #include "spincat/pipeline/task_kinds.h"
@@ -150,6 +150,7 @@ void describe_files(TaskFarm& farm, const DescribeJob& job,
     };
   }
   tasks.work = describe_work(job.settings, job.views, job.limits);
+  tasks.is_worth_keeping = has_no_problem;
   tasks.tasks = job.files;
   tasks.task = [&](std::size_t i) { return job.file(i).string(); };
   tasks.deliver = [&](std::size_t i, const std::string& result) { deliver(i, unpack_described(result)); };

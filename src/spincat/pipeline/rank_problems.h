@@ -1,4 +1,4 @@
-// Private to the library, not installed: problems that another rank meets.
+// Private to the library, not installed: works whose results begin with a problem in words, empty where there is none.
 #pragma once
 
 #include <string>
@@ -11,13 +11,17 @@
 
 namespace spincat {
 
-// For works whose results begin with a problem in words, empty where there is none. On rank 0 that is a result; on
-// another rank it may be the host's own (a file that is not there, no memory): thrown, it makes rank 0 look for itself.
+inline bool has_no_problem(std::string_view result) {
+  return Unpacker(result).get_text().empty();
+}
+
+// On rank 0 a problem is a result, but none for the journal: the next run may have the file, or the memory. On another
+// rank it may be the host's own: thrown, it makes rank 0 look for itself.
 inline Work throwing_problems(Work work) {
   return [work = std::move(work)](std::string_view task) {
     std::string result = work(task);
-    if (const std::string_view problem = Unpacker(result).get_text(); !problem.empty()) {
-      throw InputError(std::string(problem));
+    if (!has_no_problem(result)) {
+      throw InputError(std::string(Unpacker(result).get_text()));
     }
     return result;
   };

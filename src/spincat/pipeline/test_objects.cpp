@@ -177,6 +177,7 @@ TestTable describe_tested(std::span<const DatasetObject> objects, std::size_t fe
     pack_limits(packer, options.limits);
   };
   job.work = tested_work(settings, options);
+  job.is_worth_keeping = has_no_problem;
   job.tasks = objects.size();
   job.task = [&](std::size_t i) { return Packer().add(derive_seed(stream, i)).take() + objects[i].file.string(); };
   job.deliver = [&](std::size_t i, const std::string& result) {

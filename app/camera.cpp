@@ -85,6 +85,18 @@ class FrameRate {
   double mean_ = 0.0;
 };
 
+// Tells those who show frames that there are no more, however the run ends: they would wait for ever.
+class EndOfFrames {
+ public:
+  explicit EndOfFrames(CameraState& state) : state_(state) {}
+  ~EndOfFrames() { state_.end(); }
+  EndOfFrames(const EndOfFrames&) = delete;
+  EndOfFrames& operator=(const EndOfFrames&) = delete;
+
+ private:
+  CameraState& state_;
+};
+
 // One run: where frames come from, who looks at them, and all who are told.
 class CameraRun {
  public:
@@ -211,6 +223,7 @@ class CameraRun {
   std::optional<MaskWriter> masks_;
   std::optional<LiveView> view_;
   std::optional<CameraPainter> painter_;
+  EndOfFrames end_{state_};
   std::unique_ptr<FrameFeed> feed_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
 #include <utility>
 
 #include "spincat/error.h"
@@ -79,13 +80,25 @@ class NewestFrames : public FrameFeed {
     std::optional<FedFrame> frame = latest_.take(kWait);
     if (frame) {
       frame->dropped = dropped_;
+    } else if (latest_.closed() && problem_) {
+      std::rethrow_exception(std::exchange(problem_, nullptr));
     }
     return frame;
   }
-  bool ended() const override { return latest_.closed(); }
+  bool ended() const override { return latest_.closed() && !problem_; }
 
  private:
+  // What goes wrong here is told to who asks for the next frame: out of a thread it would end the process.
   void read_on(const std::stop_token& stop) {
+    try {
+      hand_on(stop);
+    } catch (...) {
+      problem_ = std::current_exception();
+    }
+    latest_.close();
+  }
+
+  void hand_on(const std::stop_token& stop) {
     const auto start = Clock::now();
     std::optional<double> first;
     while (!stop.stop_requested()) {
@@ -101,7 +114,6 @@ class NewestFrames : public FrameFeed {
       }
       dropped_ += latest_.put(std::move(*frame)) ? 1 : 0;
     }
-    latest_.close();
   }
 
   static void wait_until(Clock::time_point when, const std::stop_token& stop) {
@@ -113,7 +125,8 @@ class NewestFrames : public FrameFeed {
   FrameReader reader_;
   Latest<FedFrame> latest_;
   std::atomic<std::size_t> dropped_ = 0;
-  std::jthread thread_;  // the last member: it uses the others
+  std::exception_ptr problem_;  // the thread's until `latest_` is closed
+  std::jthread thread_;         // the last member: it uses the others
 };
 
 }  // namespace

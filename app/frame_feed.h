@@ -25,7 +25,8 @@ class FrameFeed {
  public:
   virtual ~FrameFeed() = default;
 
-  // The next frame, after a short wait at most: nothing where there is none yet.
+  // The next frame, after a short wait at most: nothing where there is none yet. Throws what the source throws, but for
+  // a frame that cannot be read (InputError), which is a FedFrame, too.
   virtual std::optional<FedFrame> next() = 0;
   // No more frames will come.
   virtual bool ended() const = 0;

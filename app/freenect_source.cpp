@@ -38,6 +38,18 @@ std::vector<float> metres_of_readings() {
   return metres;
 }
 
+// Whether there is one, asked so that libfreenect does not say its own words about it.
+bool is_there() {
+  freenect_context* context = nullptr;
+  if (freenect_init(&context, nullptr) != 0) {
+    return false;
+  }
+  freenect_set_log_level(context, FREENECT_LOG_FATAL);
+  const int devices = freenect_num_devices(context);
+  freenect_shutdown(context);
+  return devices > 0;
+}
+
 class Kinect : public FrameSource {
  public:
   explicit Kinect(const Intrinsics& intrinsics) : intrinsics_(intrinsics) {}
@@ -50,7 +62,7 @@ class Kinect : public FrameSource {
     std::uint32_t stamp = 0;
     if (freenect_sync_get_depth(&readings, &stamp, 0, FREENECT_DEPTH_11BIT) != 0) {
       if (count_ == 0) {
-        throw RunError("no Kinect was found (or it cannot be opened: is another program using it?)");
+        throw RunError("the Kinect cannot be opened: is another program using it?");
       }
       return {};  // it was unplugged
     }
@@ -76,6 +88,9 @@ class Kinect : public FrameSource {
 }  // namespace
 
 std::unique_ptr<FrameSource> open_kinect(const FrameSettings& settings) {
+  if (!is_there()) {
+    throw RunError("no Kinect was found");
+  }
   const Intrinsics own{kFocal, kFocal, 0.5 * (kWidth - 1), 0.5 * (kHeight - 1)};
   return std::make_unique<Kinect>(settings.calibration ? read_calibration(*settings.calibration).intrinsics : own);
 }

@@ -3,8 +3,9 @@
 
     check_kinect.py SPINCAT SCRATCH-FOLDER
 
-Fails when the objects of the recorded scene are not in the JSON. Where there is no fakenect, or spincat was built
-without libfreenect, it says so and ends with 77, which CTest takes as skipped.
+Fails when the objects of the recorded scene are not in the JSON, or when spincat does anything but say in one line that
+there is no Kinect where there is none. Where there is no fakenect, or spincat was built without libfreenect, it says so
+and ends with 77, which CTest takes as skipped.
 """
 
 import glob
@@ -41,6 +42,28 @@ def write_dump(folder):
         file.write("fx %g\nfy %g\ncx %g\ncy %g\n" % (2 * FOCAL, 2 * FOCAL, WIDTH - 0.5, HEIGHT - 0.5))
 
 
+def check_without_kinect(program, model):
+    """In a pipe and on a terminal: exit code 1 and one line, by itself."""
+    for terminal in (False, True):
+        ours, theirs = os.openpty() if terminal else os.pipe()
+        camera = subprocess.Popen([program, "camera", model, "freenect:", "--view", "0"], stdin=subprocess.DEVNULL,
+                                  stdout=theirs, stderr=subprocess.PIPE, text=True)
+        try:
+            errors = camera.communicate(timeout=60)[1]
+        except subprocess.TimeoutExpired:
+            camera.kill()
+            camera.wait()
+            print("check_kinect: it does not end without a Kinect (or there is one: unplug it)")
+            return False
+        finally:
+            os.close(theirs)
+            os.close(ours)
+        if camera.returncode != 1 or errors != "spincat: no Kinect was found\n":
+            print("check_kinect: without a Kinect: exit code %d, %s" % (camera.returncode, errors))
+            return False
+    return True
+
+
 def main():
     program, scratch = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
     library = glob.glob("/usr/lib/*/fakenect/libfreenect.so")
@@ -75,7 +98,7 @@ def main():
     if names != ["block & <b>", "pillar"]:
         print("check_kinect: named %s" % json.dumps(frames[-1]))
         return 1
-    return 0
+    return 0 if check_without_kinect(program, model) else 1
 
 
 if __name__ == "__main__":

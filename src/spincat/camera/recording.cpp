@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -171,6 +172,8 @@ class Recording : public FrameSource {
       return frame;
     } catch (const InputError& error) {
       throw error.file().empty() ? InputError(file.string(), error.problem()) : error;
+    } catch (const std::bad_alloc&) {  // of this frame: the next one may be smaller
+      throw InputError(file.string(), "there is not enough memory for it");
     }
   }
 

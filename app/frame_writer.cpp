@@ -14,6 +14,7 @@
 #include "spincat/camera/depth_png.h"
 #include "spincat/error.h"
 #include "spincat/io/file.h"
+#include "spincat/io/system_words.h"
 
 namespace spincat::app {
 namespace {
@@ -26,10 +27,14 @@ constexpr double kUnitsPerMetre = 5'000.0;  // of recordings: 0.2 mm, up to 13 m
 void make_empty_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder)) {
-    throw InputError(folder.string(), "cannot be made a folder" + (error ? ": " + error.message() : ""));
+  if (error || !fs::is_directory(folder, error)) {
+    throw InputError(folder.string(), "cannot be made a folder" + (error ? ": " + in_words(error.value()) : ""));
   }
-  if (!fs::is_empty(folder, error)) {
+  const bool is_empty = fs::is_empty(folder, error);
+  if (error) {
+    throw InputError(folder.string(), "cannot be read: " + in_words(error.value()));
+  }
+  if (!is_empty) {
     throw InputError(folder.string(), "is not empty");
   }
 }

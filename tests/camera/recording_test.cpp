@@ -1,4 +1,6 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <limits>
@@ -104,6 +106,35 @@ TEST(Recording, GoesOnAfterAFrameThatCannotBeRead) {
   EXPECT_EQ(source->next()->image.at(0, 0), 3.0F);
 }
 
+TEST(Recording, ReadsNoDevicesAndNoPipes) {
+  const TempDir dir;
+  write_calibration(dir.path());
+  write_picture(dir.path() / "1.png", 1.0F);
+  ASSERT_EQ(mkfifo((dir / "2.png").c_str(), 0600), 0);
+  std::filesystem::create_symlink("1.png", dir / "3.png");
+  std::filesystem::create_symlink("/dev/zero", dir / "4.png");
+  std::filesystem::create_directory(dir / "5.png");
+  const auto folder = open_recording(dir.path(), {});
+  EXPECT_TRUE(folder->next());
+  EXPECT_EQ(input_error([&] { folder->next(); }), (dir / "2.png").string() + ": is not a regular file");
+  EXPECT_TRUE(folder->next());
+  EXPECT_EQ(input_error([&] { folder->next(); }), (dir / "4.png").string() + ": is not a regular file");
+  EXPECT_EQ(input_error([&] { folder->next(); }), (dir / "5.png").string() + ": is a folder, not a file");
+  write_file_atomically(dir / "depth.txt", "1 /dev/zero\n2 1.png\n");
+  const auto list = open_recording(dir.path(), {});
+  EXPECT_EQ(input_error([&] { list->next(); }), "/dev/zero: is not a regular file");
+  EXPECT_TRUE(list->next());
+}
+
+TEST(Recording, ReadsNoListAndNoCalibrationFromAPipe) {
+  for (const char* name : {"depth.txt", "camera.txt"}) {
+    const TempDir dir;
+    write_picture(dir.path() / "1.png", 1.0F);
+    ASSERT_EQ(mkfifo((dir / name).c_str(), 0600), 0);
+    EXPECT_EQ(input_error([&] { open_recording(dir.path(), {}); }), (dir / name).string() + ": is not a regular file");
+  }
+}
+
 TEST(Recording, LeavesFramesOut) {
   const TempDir dir;
   write_calibration(dir.path());
@@ -194,6 +225,24 @@ TEST(Recording, SaysWhatIsWrongWithThePlace) {
   const TempDir dir;
   EXPECT_NE(input_error([&] { open_recording(dir.path() / "none", {}); }).find("no such file"), std::string::npos);
   EXPECT_NE(input_error([&] { open_recording(dir.path(), {}); }).find("no depth pictures"), std::string::npos);
+  const std::string loop = (dir / "loop").string();
+  std::filesystem::create_symlink("loop", loop);
+  EXPECT_EQ(input_error([&] { open_recording(loop, {}); }), loop + ": too many levels of symbolic links");
+  const std::string name(300, 'n');
+  EXPECT_EQ(input_error([&] { open_recording(name, {}); }), name + ": file name too long");
+}
+
+// As somebody who may not read it: root may read everything.
+TEST(Recording, SaysThatAFolderCannotBeRead) {
+  using std::filesystem::perms;
+  const TempDir dir;
+  std::filesystem::permissions(dir.path(), perms::owner_exec | perms::group_exec | perms::others_exec);
+  const uid_t root = geteuid();
+  ASSERT_TRUE(root != 0 || seteuid(65'534) == 0);
+  EXPECT_EQ(input_error([&] { open_recording(dir.path(), {}); }),
+            dir.path().string() + ": cannot be read: permission denied");
+  EXPECT_TRUE(root != 0 || seteuid(root) == 0);
+  std::filesystem::permissions(dir.path(), perms::owner_all);
 }
 
 TEST(Calibration, ReadsWhatItWrote) {

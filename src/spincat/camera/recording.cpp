@@ -15,6 +15,7 @@
 #include "spincat/error.h"
 #include "spincat/io/file.h"
 #include "spincat/io/organized_cloud.h"
+#include "spincat/io/system_words.h"
 
 namespace spincat {
 namespace {
@@ -59,7 +60,27 @@ bool counts_before(const std::string& a, const std::string& b) {
   return a.size() - i != b.size() - j ? a.size() - i < b.size() - j : a < b;
 }
 
+// What a path leads to; nothing there is an answer, too.
+fs::file_status status_of(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::status_known(status)) {
+    throw InputError(path.string(), in_words(error.value()));
+  }
+  return status;
+}
+
+// What a folder holds or a list names nobody chose by hand: it may be a device that never ends, or a pipe that nobody
+// writes to.
+void expect_regular(const fs::path& file) {
+  const fs::file_status status = status_of(file);
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    throw InputError(file.string(), fs::is_directory(status) ? "is a folder, not a file" : "is not a regular file");
+  }
+}
+
 FrameList listed_files(const fs::path& list) {
+  expect_regular(list);
   try {
     return parse_depth_list(read_file(list));
   } catch (const InputError& error) {
@@ -68,17 +89,22 @@ FrameList listed_files(const fs::path& list) {
 }
 
 FrameList files_in(const fs::path& folder) {
-  if (fs::exists(folder / "depth.txt")) {
+  if (fs::exists(status_of(folder / "depth.txt"))) {
     return listed_files(folder / "depth.txt");
   }
   std::vector<std::string> pictures;
   std::vector<std::string> clouds;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (has_extension(entry.path(), ".png")) {
-      pictures.push_back(entry.path().filename().string());
-    } else if (has_extension(entry.path(), ".pcd")) {
-      clouds.push_back(entry.path().filename().string());
+  std::error_code error;
+  fs::directory_iterator next(folder, error);
+  for (; !error && next != fs::directory_iterator(); next.increment(error)) {
+    if (has_extension(next->path(), ".png")) {
+      pictures.push_back(next->path().filename().string());
+    } else if (has_extension(next->path(), ".pcd")) {
+      clouds.push_back(next->path().filename().string());
     }
+  }
+  if (error) {
+    throw InputError(folder.string(), "cannot be read: " + in_words(error.value()));
   }
   std::vector<std::string>& files = pictures.empty() ? clouds : pictures;
   std::ranges::sort(files, counts_before);
@@ -151,9 +177,12 @@ Frame frame_of(const OrganizedCloud& cloud) {
 
 class Recording : public FrameSource {
  public:
-  Recording(fs::path folder, FrameList frames, const CameraCalibration& calibration, const FrameSettings& settings)
+  // `is_one_file`: that the user named.
+  Recording(fs::path folder, FrameList frames, bool is_one_file, const CameraCalibration& calibration,
+            const FrameSettings& settings)
       : folder_(std::move(folder)),
         frames_(std::move(frames)),
+        is_one_file_(is_one_file),
         calibration_(calibration),
         limits_(settings.limits),
         loop_(settings.loop) {}
@@ -188,6 +217,9 @@ class Recording : public FrameSource {
   double length() const { return frames_.back().time - frames_.front().time + 1.0 / kFramesPerSecond; }
 
   Frame read(const fs::path& file) const {
+    if (!is_one_file_) {
+      expect_regular(file);
+    }
     const std::string bytes = read_file(file);
     if (has_extension(file, ".pcd")) {
       return frame_of(read_organized_pcd(bytes, limits_));
@@ -206,6 +238,7 @@ class Recording : public FrameSource {
 
   fs::path folder_;
   FrameList frames_;
+  bool is_one_file_;
   CameraCalibration calibration_;
   ReadLimits limits_;
   bool loop_;
@@ -222,10 +255,11 @@ void FrameSource::skip() {
 }
 
 std::unique_ptr<FrameSource> open_recording(const fs::path& place, const FrameSettings& settings) {
-  if (!fs::exists(place)) {
+  const fs::file_status status = status_of(place);
+  if (!fs::exists(status)) {
     throw InputError(place.string(), "no such file or folder");
   }
-  const bool is_folder = fs::is_directory(place);
+  const bool is_folder = fs::is_directory(status);
   const fs::path folder = is_folder ? place : place.parent_path();
   FrameList frames = is_folder ? files_in(place) : FrameList{{place.filename().string(), 0.0}};
   if (frames.empty()) {
@@ -237,11 +271,12 @@ std::unique_ptr<FrameSource> open_recording(const fs::path& place, const FrameSe
   const fs::path beside = folder / "camera.txt";
   if (settings.calibration) {
     calibration = read_calibration(*settings.calibration);
-  } else if (fs::exists(beside)) {
+  } else if (fs::exists(status_of(beside))) {
+    expect_regular(beside);
     calibration = read_calibration(beside);
   }
   calibration.units_per_metre = settings.units_per_metre.value_or(calibration.units_per_metre);
-  return std::make_unique<Recording>(folder, std::move(frames), calibration, settings);
+  return std::make_unique<Recording>(folder, std::move(frames), !is_folder, calibration, settings);
 }
 
 }  // namespace spincat

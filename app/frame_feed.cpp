@@ -14,7 +14,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kMostFailures = 10;               // in a row
-constexpr double kLongest = 1e9;                // seconds of a recording
+constexpr double kLongestGap = 5.0;             // seconds from a frame to the next: more is a damaged time
 constexpr std::chrono::milliseconds kWait(50);  // so long Ctrl-C waits for a frame
 
 // Reads one frame after the other and counts them.
@@ -53,6 +53,28 @@ class FrameReader {
   std::size_t every_;
   std::size_t number_ = 0;
   int failures_ = 0;
+};
+
+// When frames are due, in seconds after the first. A list may name any times: one of them, damaged, would hold the run
+// up for years, or hurry all that come after it. So what is added up are the gaps, none of them negative and none too
+// long.
+class Schedule {
+ public:
+  double next(std::size_t number, double time) {
+    if (number_) {
+      const double gap = time - time_;
+      const double longest = kLongestGap * static_cast<double>(number - *number_);
+      due_ += gap > 0.0 ? std::min(gap, longest) : 0.0;  // not of NaN
+    }
+    number_ = number;
+    time_ = time;
+    return due_;
+  }
+
+ private:
+  std::optional<std::size_t> number_;  // of the last frame
+  double time_ = 0.0;
+  double due_ = 0.0;
 };
 
 class AllFrames : public FrameFeed {
@@ -100,16 +122,14 @@ class NewestFrames : public FrameFeed {
 
   void hand_on(const std::stop_token& stop) {
     const auto start = Clock::now();
-    std::optional<double> first;
+    Schedule schedule;
     while (!stop.stop_requested()) {
       std::optional<FedFrame> frame = reader_.read();
       if (!frame) {
         break;
       }
       if (frame->error.empty()) {
-        first = first.value_or(frame->frame.time);
-        // A list may name any time.
-        const std::chrono::duration<double> offset(std::clamp(frame->frame.time - *first, -kLongest, kLongest));
+        const std::chrono::duration<double> offset(schedule.next(frame->number, frame->frame.time));
         wait_until(start + std::chrono::duration_cast<Clock::duration>(offset), stop);
       }
       dropped_ += latest_.put(std::move(*frame)) ? 1 : 0;

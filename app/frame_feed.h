@@ -37,7 +37,8 @@ class FrameFeed {
 std::unique_ptr<FrameFeed> feed_all(std::unique_ptr<FrameSource> source, std::size_t every);
 
 // Frames in their own time, read on a thread of its own: the newest is handed on, and those that it replaces are
-// dropped and counted. Holds two frames at most.
+// dropped and counted. Holds two frames at most. A gap of the source's times counts as no more than five seconds a
+// frame, one that goes back as none.
 std::unique_ptr<FrameFeed> feed_in_real_time(std::unique_ptr<FrameSource> source, std::size_t every);
 
 }  // namespace spincat::app

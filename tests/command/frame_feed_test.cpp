@@ -62,5 +62,21 @@ TEST(FrameFeed, WhatTheSourceThrowsReachesWhoAsksForFrames) {
   }
 }
 
+// Waits as long as it takes: 41 years, if that one time were believed.
+TEST(FrameFeed, ADamagedTimeHoldsNothingUp) {
+  const std::vector<std::vector<double>> damaged = {{0.0, 1305031453.0, 1305031453.03, 1305031453.06},
+                                                    {1e308, 5.0, -1e308, -1e308}};
+  for (const std::vector<double>& times : damaged) {
+    const auto fed = feed_in_real_time(std::make_unique<Scripted>(times), 1);
+    std::size_t last = 0;
+    while (!fed->ended()) {
+      if (const std::optional<FedFrame> frame = fed->next()) {
+        last = frame->number;
+      }
+    }
+    EXPECT_EQ(last, 3U);
+  }
+}
+
 }  // namespace
 }  // namespace spincat::app

@@ -197,7 +197,8 @@ class Recording : public FrameSource {
     try {
       Frame frame = read(file);
       frame.name = file.filename().string();
-      frame.time = listed.time + static_cast<double>(round) * length();
+      // Not 0 * length(): a list may name times so far apart that it is infinite.
+      frame.time = listed.time + (round > 0 ? static_cast<double>(round) * length() : 0.0);
       return frame;
     } catch (const InputError& error) {
       throw error.file().empty() ? InputError(file.string(), error.problem()) : error;

@@ -198,6 +198,9 @@ class CameraRun {
     if (writer_) {
       writer_->finish();
     }
+    if (recorder_) {
+      recorder_->finish();
+    }
     if (recorder_ && recorder_->left_out() > 0) {
       message(fmt::format("{} frames came too fast to be recorded", recorder_->left_out()));
     }
@@ -217,10 +220,10 @@ class CameraRun {
   CameraSummary summary_;
   FrameRate rate_;
   Stopwatch watch_;
-  // Those with threads come last, so that they end first.
-  std::optional<WriterThread> writer_;
   std::optional<FrameRecorder> recorder_;
   std::optional<MaskWriter> masks_;
+  // Those with threads come last, so that they end first; what the writer still has to do is the recorder's.
+  std::optional<WriterThread> writer_;
   std::optional<LiveView> view_;
   std::optional<CameraPainter> painter_;
   EndOfFrames end_{state_};

@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -121,11 +118,22 @@ void FrameRecorder::write(const Frame& frame, std::size_t number) {
   const std::string name = fmt::format("{:06}.png", number);
   write_file_atomically(folder_ / name, encode_depth_png(frame.image, kUnitsPerMetre));
   // The list grows last: what it names is there.
-  const fs::path list = folder_ / "depth.txt";
-  std::ofstream stream(list, std::ios::app);
-  stream << fmt::format("{:.6f} {}\n", frame.time, name);
-  if (!stream.flush()) {
-    throw RunError(fmt::format("{}: {}", list.string(), std::strerror(errno)));
+  if (!list_) {
+    list_.emplace(folder_ / "depth.txt");
+  }
+  const std::string line = fmt::format("{:.6f} {}\n", frame.time, name);
+  try {
+    list_->write(listed_, line);
+  } catch (const RunError&) {
+    list_->cut(listed_);  // a full disk takes a part of a line
+    throw;
+  }
+  listed_ += line.size();
+}
+
+void FrameRecorder::finish() {
+  if (list_) {
+    list_->flush();
   }
 }
 

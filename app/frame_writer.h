@@ -9,10 +9,11 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
-#include <set>
+#include <optional>
 #include <thread>
 
 #include "spincat/camera/frame_source.h"
+#include "spincat/io/locked_file.h"
 #include "spincat/pipeline/recogniser.h"
 
 namespace spincat::app {
@@ -51,6 +52,8 @@ class FrameRecorder {
   FrameRecorder(const std::filesystem::path& folder, WriterThread& writer);
 
   void add(const Frame& frame);
+  // Waits until the list is on the disk; each frame has waited for its own picture. The writer must have finished.
+  void finish();
   std::size_t left_out() const { return left_out_; }
 
  private:
@@ -58,6 +61,8 @@ class FrameRecorder {
 
   std::filesystem::path folder_;
   WriterThread& writer_;
+  std::optional<LockedFile> list_;  // from the first frame on; the writer's, as `listed_`
+  std::uint64_t listed_ = 0;        // bytes of whole lines
   std::size_t count_ = 0;
   std::size_t left_out_ = 0;
 };

@@ -93,6 +93,35 @@ TEST(Recording, NamesTheListThatItRefuses) {
   EXPECT_NE(error.find("depth.txt: line 2"), std::string::npos) << error;
 }
 
+TEST(Recording, LeavesALastLineOutThatWasCutOff) {
+  const TempDir dir;
+  write_calibration(dir.path());
+  write_picture(dir.path() / "a.png", 1.0F);
+  write_picture(dir.path() / "b.png", 2.0F);
+  const auto frames = [&](const std::string& list) {
+    write_file_atomically(dir.path() / "depth.txt", list);
+    const auto source = open_recording(dir.path(), {});
+    int count = 0;
+    while (source->next()) {
+      ++count;
+    }
+    return count;
+  };
+  const std::string whole = "# time file\n10.5 a.png\n10.75 b.png";
+  const std::size_t first = whole.find("10.75");
+  for (std::size_t size = first; size < whole.size(); ++size) {
+    EXPECT_EQ(frames(whole.substr(0, size)), 1) << size;
+  }
+  EXPECT_EQ(frames(whole), 2);  // many a list has no last line end
+  EXPECT_EQ(frames(whole + "\n"), 2);
+  EXPECT_EQ(frames(whole + "\r"), 2);
+  EXPECT_EQ(frames(whole + "\n# the end"), 2);
+  // A whole line is what somebody meant to say.
+  EXPECT_NE(input_error([&] { frames("10.5 a.png\n10.75 c.png\n"); }).find("c.png: no such file"), std::string::npos);
+  EXPECT_NE(input_error([&] { frames("10.5 a.png\n10.75\n"); }).find("depth.txt: line 2"), std::string::npos);
+  EXPECT_NE(input_error([&] { frames("10.75"); }).find("depth.txt: line 1"), std::string::npos);
+}
+
 TEST(Recording, GoesOnAfterAFrameThatCannotBeRead) {
   const TempDir dir;
   write_calibration(dir.path());

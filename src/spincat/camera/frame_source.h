@@ -43,9 +43,10 @@ struct FrameSettings {
 
 // A recording: a folder of grey PNG files in the order of their names (of TUM's depth.txt where there is one, which
 // gives times as well), a folder of organized PCD files, or one file of either kind. An organized PCD carries its own
-// calibration. Throws InputError naming the file or folder when there is no frame, or the list or the calibration cannot
-// be read. What a folder holds or a list names must be a regular file (or a link to one): else that frame, list or
-// calibration cannot be read. One file that is named by itself may be a pipe.
+// calibration. Throws InputError naming the file or folder when there is no frame, or the list or the calibration
+// cannot be read. What a folder holds or a list names must be a regular file (or a link to one): else that frame, list
+// or calibration cannot be read. The list's last line is left out where it has no end and is no line, or names a file
+// that is not there: it was cut off. One file that is named by itself may be a pipe.
 std::unique_ptr<FrameSource> open_recording(const std::filesystem::path& place, const FrameSettings& settings);
 
 }  // namespace spincat

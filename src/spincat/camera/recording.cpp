@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <new>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -79,10 +80,29 @@ void expect_regular(const fs::path& file) {
   }
 }
 
+// A list without its last line where that was cut off, by a power cut or a full disk, while it was written: it has no
+// end, and it is no line of a list or names no file that is there. What is left of one frame is no reason to refuse all
+// others; and the last line of many a list that is whole has no end.
+std::string_view without_cut_line(std::string_view text, const fs::path& folder) {
+  const std::size_t last = text.find_last_of("\r\n") + 1;  // 0: there is but one line
+  if (last == 0 || last == text.size()) {
+    return text;
+  }
+  try {
+    const FrameList frames = parse_depth_list(text.substr(last));
+    if (frames.empty() || fs::exists(status_of(folder / frames.front().file))) {
+      return text;
+    }
+  } catch (const InputError&) {
+  }
+  return text.substr(0, last);
+}
+
 FrameList listed_files(const fs::path& list) {
   expect_regular(list);
   try {
-    return parse_depth_list(read_file(list));
+    const std::string text = read_file(list);
+    return parse_depth_list(without_cut_line(text, list.parent_path()));
   } catch (const InputError& error) {
     throw error.file().empty() ? InputError(list.string(), error.problem()) : error;
   }

@@ -186,6 +186,8 @@ class CameraRun {
       fmt::print("{}\n", frame_error_json(fed.number, fed.error));
     } else if (summary_.failed <= kMostMessages) {
       message(fed.error);
+    } else if (summary_.failed == kMostMessages + 1) {
+      message("more frames cannot be read; they are counted at the end");
     }
   }
 
@@ -203,6 +205,13 @@ class CameraRun {
     }
     if (recorder_ && recorder_->left_out() > 0) {
       message(fmt::format("{} frames came too fast to be recorded", recorder_->left_out()));
+    }
+    if (masks_ && masks_->left_out() > 0) {
+      message(fmt::format("{} frames came too fast for their masks to be written", masks_->left_out()));
+    }
+    summary_.gave_up = feed_->gave_up();
+    if (summary_.gave_up) {
+      message("ten frames in a row could not be read: those after them were not looked at");
     }
     if (json_) {
       fmt::print("{}\n", summary_json(summary_));

@@ -24,11 +24,12 @@ class FrameReader {
 
   // Nothing after the last frame.
   std::optional<FedFrame> read() {
-    if (failures_ == kMostFailures) {
-      return {};
-    }
     for (; number_ % every_ != 0; ++number_) {
       source_->skip();
+    }
+    if (failures_ == kMostFailures) {
+      gave_up_ = another_follows();
+      return {};
     }
     FedFrame fed;
     fed.number = number_++;
@@ -47,12 +48,22 @@ class FrameReader {
     fed.read_seconds = watch.lap();
     return fed;
   }
+  bool gave_up() const { return gave_up_; }
 
  private:
+  bool another_follows() {
+    try {
+      return source_->next().has_value();
+    } catch (const InputError&) {
+      return true;
+    }
+  }
+
   std::unique_ptr<FrameSource> source_;
   std::size_t every_;
   std::size_t number_ = 0;
   int failures_ = 0;
+  std::atomic<bool> gave_up_ = false;  // asked for while another thread reads
 };
 
 // When frames are due, in seconds after the first. A list may name any times: one of them, damaged, would hold the run
@@ -87,6 +98,7 @@ class AllFrames : public FrameFeed {
     return frame;
   }
   bool ended() const override { return ended_; }
+  bool gave_up() const override { return reader_.gave_up(); }
 
  private:
   FrameReader reader_;
@@ -108,6 +120,7 @@ class NewestFrames : public FrameFeed {
     return frame;
   }
   bool ended() const override { return latest_.closed() && !problem_; }
+  bool gave_up() const override { return reader_.gave_up(); }
 
  private:
   // What goes wrong here is told to who asks for the next frame: out of a thread it would end the process.

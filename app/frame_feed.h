@@ -30,6 +30,8 @@ class FrameFeed {
   virtual std::optional<FedFrame> next() = 0;
   // No more frames will come.
   virtual bool ended() const = 0;
+  // It ended after ten frames in a row that could not be read, and there were more.
+  virtual bool gave_up() const = 0;
 };
 
 // Every `every`-th frame of the source, each when it is asked for. Ends after ten frames in a row that cannot be read:

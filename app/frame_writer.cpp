@@ -150,8 +150,9 @@ void MaskWriter::add(std::size_t number, const SeenFrame& frame, int width, int 
   std::vector<std::uint16_t> ids(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
   std::ranges::transform(frame.segmentation.ids, ids.begin(), [&](std::uint16_t id) { return id_of[id]; });
   const fs::path file = folder_ / fmt::format("{:06}.png", number);
-  writer_.add(
+  const bool is_taken = writer_.add(
       [file, ids = std::move(ids), width, height] { write_file_atomically(file, encode_png16(ids, width, height)); });
+  left_out_ += is_taken ? 0 : 1;
 }
 
 }  // namespace spincat::app

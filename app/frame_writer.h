@@ -75,10 +75,12 @@ class MaskWriter {
 
   // `number`: of the frame, which names the file.
   void add(std::size_t number, const SeenFrame& frame, int width, int height);
+  std::size_t left_out() const { return left_out_; }
 
  private:
   std::filesystem::path folder_;
   WriterThread& writer_;
+  std::size_t left_out_ = 0;
 };
 
 }  // namespace spincat::app

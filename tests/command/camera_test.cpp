@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "command/on_terminal.h"
 #include "spincat/camera/calibration.h"
 #include "spincat/camera/depth_png.h"
 #include "spincat/camera/sensor_noise.h"
@@ -197,6 +198,7 @@ TEST_F(CameraCommand, PrintsALineForEachFrameAndASummary) {
   }
   EXPECT_EQ(result.summary.at("frames"), 4);
   EXPECT_EQ(result.summary.at("dropped"), 0);
+  EXPECT_EQ(result.summary.at("gave_up"), false);
   EXPECT_GT(result.summary.at("milliseconds").at("p99").get<double>(), 0.0);
 }
 
@@ -268,7 +270,46 @@ TEST_F(CameraCommand, EndsWhenTheRecordingDisappears) {
   const Result result = running.end(0);
   EXPECT_EQ(result.code, 2);
   EXPECT_EQ(result.summary.at("failed"), 10);
+  EXPECT_EQ(result.summary.at("gave_up"), true);
+  EXPECT_EQ(result.err, "spincat: ten frames in a row could not be read: those after them were not looked at\n");
   EXPECT_NE(result.lines.back().at("error").get<std::string>().find("no such file"), std::string::npos);
+}
+
+TEST_F(CameraCommand, TenBadFramesAtTheEndHideNone) {
+  copy_frames("ending");
+  for (int k = kFrames; k < kFrames + 10; ++k) {
+    folder_->write(fmt::format("ending/{}.png", k), "no picture");
+  }
+  const Result ended = run("camera m.spincat ending");
+  EXPECT_EQ(ended.summary.at("failed"), 10);
+  EXPECT_EQ(ended.summary.at("gave_up"), false);
+  EXPECT_EQ(ended.err, "");
+  folder_->write("ending/99.png", "no picture");
+  const Result gave_up = run("camera m.spincat ending");
+  EXPECT_EQ(gave_up.summary.at("failed"), 10);
+  EXPECT_EQ(gave_up.summary.at("gave_up"), true);
+}
+
+TEST_F(CameraCommand, SaysOnATerminalThatMoreFramesCannotBeRead) {
+  folder_->write("many/camera.txt", calibration_text({}));
+  for (int k = 0; k < 24; ++k) {
+    folder_->write(fmt::format("many/{}.png", k), k % 8 == 7 ? encode_depth_png(DepthImage(4, 3), 1000.0) : "none");
+  }
+  const test::OnTerminal ran = test::on_terminal(folder_->path(), 100, "env", "camera m.spincat many");
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_NE(ran.text.find("spincat: many/21.png: is no depth picture"), std::string::npos) << ran.text;
+  EXPECT_EQ(ran.text.find("many/22.png"), std::string::npos) << ran.text;
+  EXPECT_NE(ran.text.find("spincat: more frames cannot be read; they are counted at the end\n"), std::string::npos);
+  EXPECT_NE(ran.text.find("21 could not be read"), std::string::npos) << ran.text;
+}
+
+// Who draws on the terminal waits for frames; a run that fails has to tell him that none will come.
+TEST_F(CameraCommand, EndsOnATerminalWhenAFrameCannotBeRecorded) {
+  const test::OnTerminal ran = test::on_terminal(folder_->path(), 100, "trap '' XFSZ; ulimit -f 8;",
+                                                 "camera m.spincat frames --loop --record refused");
+  EXPECT_EQ(ran.code, 1);
+  EXPECT_NE(ran.text.find("spincat: refused/000000.png: cannot write: file too large\n"), std::string::npos)
+      << ran.text;
 }
 
 TEST_F(CameraCommand, CtrlCEndsWithASummary) {

@@ -1,15 +1,13 @@
 // What the command shows on a terminal: a pseudo-terminal of a given width stands in for one.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <pty.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <sstream>
 #include <string>
 
+#include "command/on_terminal.h"
 #include "spincat/report/text_table.h"
 #include "support/shapes.h"
 #include "support/temp_dir.h"
@@ -17,31 +15,12 @@
 namespace spincat {
 namespace {
 
-// Everything that the command writes to a terminal of `columns` columns; `environment` stands before it.
+// Everything that a command that succeeds writes to a terminal.
 std::string on_terminal(const std::filesystem::path& folder, unsigned short columns, const std::string& environment,
                         const std::string& arguments) {
-  winsize size{};
-  size.ws_row = 24;
-  size.ws_col = columns;
-  int terminal = -1;
-  const pid_t child = forkpty(&terminal, nullptr, nullptr, &size);
-  if (child == 0) {
-    const std::string line =
-        fmt::format("cd '{}' && {} '{}' {}", folder.string(), environment, SPINCAT_COMMAND, arguments);
-    execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
-    _exit(127);
-  }
-  std::string text;
-  char buffer[4096];
-  for (ssize_t got = 0; (got = read(terminal, buffer, sizeof(buffer))) > 0;) {  // EIO when the command has ended
-    text.append(buffer, static_cast<std::size_t>(got));
-  }
-  close(terminal);
-  int status = 0;
-  waitpid(child, &status, 0);
-  EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 0) << text;
-  std::erase(text, '\r');
-  return text;
+  const test::OnTerminal ran = test::on_terminal(folder, columns, environment, arguments);
+  EXPECT_EQ(ran.code, 0) << ran.text;
+  return ran.text;
 }
 
 std::string without_colours(std::string text) {

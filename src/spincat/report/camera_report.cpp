@@ -163,6 +163,7 @@ std::string summary_json(const CameraSummary& s) {
                  {"failed", s.failed},
                  {"dropped", s.dropped},
                  {"objects", s.objects},
+                 {"gave_up", s.gave_up},
                  {"seconds", s.wall_seconds},
                  {"frames_a_second", s.look.sum() > 0.0 ? static_cast<double>(s.frames) / s.look.sum() : 0.0},
                  {"milliseconds", percentiles(s.look)},

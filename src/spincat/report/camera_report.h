@@ -27,6 +27,7 @@ struct CameraSummary {
   std::size_t failed = 0;   // could not be read
   std::size_t dropped = 0;  // frames that came while another was looked at
   std::size_t objects = 0;  // in all frames
+  bool gave_up = false;     // after too many frames in a row that could not be read: there were more
   TimeHistogram look;       // table, objects and names of a frame
   TimeHistogram read;
   double wall_seconds = 0.0;

@@ -33,5 +33,9 @@ if [ "$(uname -m)" = x86_64 ]; then
   functions=$(readelf --wide --syms "$1" 2> /dev/null | grep -c ' FUNC ' || true)
   echo "        $(basename "$1"): $jumps marked targets of jumps, $functions named functions"
   [ "$jumps" -gt 1000 ] || { echo "MISSING $(basename "$1"): marked targets of jumps"; failures=$((failures + 1)); }
+  # A frame of several pages is taken page by page, and each page is touched: nothing else does that.
+  probes=$(objdump -d --no-show-raw-insn "$1" | grep -A 1 -E 'sub +\$0x1000,%rsp' | grep -cE 'orq? +\$0x0,\(%rsp\)' || true)
+  echo "        $(basename "$1"): $probes places where large frames of the stack are touched page by page"
+  [ "$probes" -gt 0 ] || { echo "MISSING $(basename "$1"): large frames that cannot jump over a guard page"; failures=$((failures + 1)); }
 fi
 exit $((failures > 0))

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -163,8 +164,25 @@ void read_and_continue_sweep(std::string_view bytes) {
   }
 }
 
+// The same lines with right checksums.
+std::string as_sweep(std::string_view bytes) {
+  std::string text;
+  for (std::size_t begin = 0; begin < bytes.size();) {
+    const std::size_t end = std::min(bytes.find('\n', begin), bytes.size());
+    const std::string_view line = bytes.substr(begin, end - begin);
+    std::array<char, 16> checksum{};
+    std::snprintf(checksum.data(), checksum.size(), " %08lx",
+                  crc32_z(0, reinterpret_cast<const Bytef*>(line.data()), line.size()));
+    text.append(line).append(checksum.data()).append("\n");
+    begin = end + 1;
+  }
+  return text;
+}
+
 void read_sweep(std::string_view bytes, Refusals& refusals) {
-  attempt([&] { read_and_continue_sweep(bytes); }, refusals);
+  for (const std::string& all : {std::string(bytes), as_sweep(bytes)}) {
+    attempt([&] { read_and_continue_sweep(all); }, refusals);
+  }
 }
 
 // Settings as a model has them, or one of them as a user names it: NAME=VALUE.

@@ -32,6 +32,8 @@ const std::vector<const char*> kByNature = {"make up no picture",
                                             "is not a spincat file",
                                             "its content is not valid CBOR",
                                             "is no journal of spincat",
+                                            "is no journal of a sweep",
+                                            "is the journal of an older spincat",
                                             "it's no PNG or corrupted",
                                             "zlib header"};
 

@@ -2,9 +2,11 @@
 
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <fstream>
+#include <sstream>
 
 #include "spincat/io/file.h"
 #include "spincat/pipeline/named_settings.h"
@@ -30,6 +32,11 @@ std::vector<std::string> rates(const Sweep& sweep) {
                                 point.overall_rate.deviation));
   }
   return lines;
+}
+
+// A line of a journal.
+std::string checked(const std::string& text) {
+  return fmt::format("{} {:08x}\n", text, crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size()));
 }
 
 class Sweeps : public testing::Test {
@@ -150,8 +157,46 @@ TEST_F(Sweeps, ALineThatNoSweepWroteIsRefused) {
             journal.string() + ": line " + next + " is longer than any of a sweep");
   const std::string many = R"({"values":["1","2","3","4","5","6","7","8","9","10","11","12","13","14","15","16","17"],)"
                            R"("mean_class_rate":[1,1,1,1],"overall_rate":[1,1,1,1],"seconds":[1,1,1,1,1]})";
-  dir_.write("s.journal", good + many + "\n");
-  EXPECT_EQ(input_error([&] { swept(journal); }), journal.string() + ": line " + next + " is no point of a sweep");
+  for (const std::string& text : {many, std::string("[]"), std::string("{")}) {
+    dir_.write("s.journal", good + checked(text));
+    EXPECT_EQ(input_error([&] { swept(journal); }), journal.string() + ": line " + next + " is no point of a sweep");
+  }
+}
+
+TEST_F(Sweeps, ADamagedLineIsRefused) {
+  const auto journal = dir_ / "s.journal";
+  swept(journal);
+  const std::string good = read_file(journal);
+  std::size_t line = 1;
+  std::size_t digits = 0;
+  for (std::size_t at = 0; at < good.size(); ++at) {
+    if (good[at] >= '0' && good[at] <= '9') {
+      std::string damaged = good;
+      damaged[at] = good[at] == '9' ? '8' : static_cast<char>(good[at] + 1);
+      dir_.write("s.journal", damaged);
+      EXPECT_EQ(input_error([&] { swept(journal); }),
+                fmt::format("{}: line {} is damaged (its checksum is not right): remove the file, or name another one",
+                            journal.string(), line))
+          << at;
+      ++digits;
+    }
+    line += good[at] == '\n' ? 1 : 0;
+  }
+  EXPECT_GT(digits, 100U);
+}
+
+TEST_F(Sweeps, TheJournalOfAnOlderSpincatIsRefused) {
+  const auto journal = dir_ / "s.journal";
+  swept(journal);
+  std::string older;
+  std::istringstream lines(read_file(journal));
+  for (std::string line; std::getline(lines, line);) {
+    older += line.substr(0, line.size() - 9) + "\n";
+  }
+  dir_.write("s.journal", older);
+  EXPECT_EQ(input_error([&] { swept(journal); }),
+            journal.string() + ": is the journal of an older spincat: remove it, or name another file");
+  EXPECT_EQ(read_file(journal), older);
 }
 
 TEST_F(Sweeps, ImpossibleSweepsAreRefusedBeforeAnyWork) {

@@ -1,7 +1,10 @@
 #include "spincat/pipeline/sweep_journal.h"
 
 #include <fmt/format.h>
+#include <zlib.h>
 
+#include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include "spincat/error.h"
@@ -40,8 +43,35 @@ SweepPoint point_of(const Json& json) {
            s.at(4).get<double>()}};
 }
 
+std::string as_text(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+// A blank and eight digits.
+std::string checksum_of(std::string_view text) {
+  return fmt::format(" {:08x}", crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size()));
+}
+
+constexpr std::size_t kChecksum = 9;
+
+std::string_view without_checksum(std::string_view line) {
+  return line.substr(0, line.size() - std::min(line.size(), kChecksum));
+}
+
+bool checks(std::string_view line) {
+  const std::string_view text = without_checksum(line);
+  return line.substr(text.size()) == checksum_of(text);
+}
+
 std::string as_line(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  const std::string text = as_text(json);
+  return text + checksum_of(text) + "\n";
+}
+
+// The first line of a journal, as far as its text tells.
+bool begins_journal(std::string_view text) {
+  const Json json = Json::parse(text, nullptr, false);
+  return json.is_object() && json.contains("sweep");
 }
 
 // The first thing in which two sweeps differ.
@@ -82,13 +112,23 @@ void SweepJournal::read(const std::string& text, const Json& identity) {
     if (end - whole_ > kLongestLine) {
       throw InputError(file, fmt::format("line {} is longer than any of a sweep", line));
     }
-    const Json json = Json::parse(text.substr(whole_, end - whole_), nullptr, false);
+    const std::string_view whole_line = std::string_view(text).substr(whole_, end - whole_);
+    const std::string_view content = without_checksum(whole_line);
+    if (whole_ == 0 && begins_journal(whole_line)) {
+      throw InputError(file, "is the journal of an older spincat: remove it, or name another file");
+    }
+    if (whole_ == 0 && !begins_journal(content)) {
+      throw InputError(file, "is no journal of a sweep");
+    }
+    if (!checks(whole_line)) {
+      throw InputError(file, fmt::format("line {} is damaged (its checksum is not right): remove the file, or name "
+                                         "another one",
+                                         line));
+    }
+    const Json json = Json::parse(content, nullptr, false);
     if (whole_ == 0) {
-      if (!json.is_object() || !json.contains("sweep")) {
-        throw InputError(file, "is no journal of a sweep");
-      }
       // As text: what was read has passed through it once.
-      if (const Json ours = Json::parse(as_line(identity)); json != ours) {
+      if (const Json ours = Json::parse(as_text(identity)); json != ours) {
         throw InputError(file, fmt::format("is the journal of another sweep ({} differs): remove it, or name "
                                            "another file",
                                            difference(json, ours)));

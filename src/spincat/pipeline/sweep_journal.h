@@ -1,7 +1,7 @@
 // Private to the library, not installed: what an interrupted sweep has found so far.
 //
-// Lines of JSON. The first says which sweep it is; every other one is a point. A line counts when it is whole: the last
-// one, cut off by a power failure, is written over.
+// Lines of JSON, each with a blank and its CRC-32 (eight digits) behind it. The first says which sweep it is; every
+// other one is a point. A line counts when it is whole: the last one, cut off by a power failure, is written over.
 #pragma once
 
 #include <filesystem>
@@ -19,8 +19,8 @@ namespace spincat {
 class SweepJournal {
  public:
   // Reads the journal, or begins one where there is none. No file: nothing is kept. Throws InputError when the file is
-  // the journal of another sweep than `identity` or none at all, RunError when it cannot be written or another run is
-  // using it.
+  // the journal of another sweep than `identity`, of an older spincat (without checksums) or none at all, or when a
+  // line is damaged; RunError when it cannot be written or another run is using it.
   SweepJournal(const std::filesystem::path& file, const nlohmann::ordered_json& identity);
 
   // The point with these values, where it is known.

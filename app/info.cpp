@@ -4,6 +4,7 @@
 
 #include "command_line.h"
 #include "commands.h"
+#include "interrupt.h"
 #include "options.h"
 #include "spincat/error.h"
 #include "spincat/io/file.h"
@@ -39,14 +40,18 @@ int run_on_model(const InfoArguments& arguments) {
 }
 
 int run_info(const InfoArguments& arguments) {
-  if (is_model_file(arguments.file)) {
+  const bool is_model = is_model_file(arguments.file);
+  stop_if_interrupted();
+  if (is_model) {
     return run_on_model(arguments);
   }
   check_report(arguments.report);
   const std::string name = arguments.file.string();
   const Settings settings = arguments.settings.settings();
   const Object object = read_object(arguments.file, arguments.limits);
+  stop_if_interrupted();
   const ObjectFacts facts = facts_of(object);
+  stop_if_interrupted();
   if (!arguments.report.empty()) {
     Preparation prepared;
     try {
@@ -54,6 +59,7 @@ int run_info(const InfoArguments& arguments) {
     } catch (const InputError& error) {
       throw InputError(name, error.problem());
     }
+    stop_if_interrupted();
     write_file_atomically(arguments.report, object_page(name, object, facts, prepared, settings, command_line()));
   }
   fmt::print("{}", arguments.json ? object_json(name, facts) + "\n" : object_text(facts));

@@ -255,6 +255,21 @@ TEST_F(CameraCommand, GoesOnAfterABrokenFrame) {
   EXPECT_EQ(result.summary.at("failed"), 2);
 }
 
+TEST_F(CameraCommand, GoesOnAfterAFrameThatThereIsNoMemoryFor) {
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "sanitizers ask for all addresses that there are";
+#endif
+  copy_frames("large");
+  fs::resize_file(frame_file("large", 1), std::uintmax_t{1} << 36);  // all of it a hole
+  const test::OnTerminal ran =
+      test::on_terminal(folder_->path(), 100, "ulimit -v 8000000;", "camera m.spincat large --json");
+  const Result result = result_of(ran.code, ran.text, "");
+  EXPECT_EQ(result.code, 2) << ran.text;
+  ASSERT_EQ(result.lines.size(), 4U) << ran.text;
+  EXPECT_EQ(result.lines[1].at("error"), "large/1.png: there is not enough memory for it");
+  EXPECT_EQ(result.lines[3].at("objects").size(), 2U);
+}
+
 TEST_F(CameraCommand, SaysWhatIsWrongWithTheUnits) {
   const Result result = run("camera m.spincat frames --units 1");
   ASSERT_EQ(result.lines.size(), 4U);

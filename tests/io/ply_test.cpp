@@ -181,6 +181,18 @@ TEST(Ply, ChecksBinaryCountsAndIndices) {
             "holds more than 100000000 points; --max-points raises this limit");
 }
 
+// Vertices without properties take no bytes: they were passed over, and faces checked against their number.
+TEST(Ply, RefusesFacesOfVerticesThatAreNotThere) {
+  const std::string faces = "element face 1\nproperty list uchar int vertex_indices\n";
+  for (const std::string properties : {"", "property float y\nproperty float z\n", "property list uchar float x\n"})
+    EXPECT_EQ(problem_with("a.ply", header("ascii", "element vertex 3\n" + properties + faces) + "3 0 1 2\n"),
+              "its vertices have no property 'x'");
+  EXPECT_EQ(problem_with("a.ply", header("ascii", faces + "element vertex 3\n") + "3 0 1 2\n"),
+            "its vertices have no property 'x'");
+  EXPECT_EQ(problem_with("a.ply", header("ascii", "element vertex 0\n" + faces) + "3 0 1 2\n"),
+            "line 7: vertex index 0 is out of range (0 vertices)");
+}
+
 // Each name is compared with all before it: a header of a million elements must not take for ever.
 TEST(Ply, RefusesFarTooManyElements) {
   std::string text = "ply\nformat ascii 1.0\nelement vertex 1\n" + xyz;

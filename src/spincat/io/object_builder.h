@@ -69,6 +69,7 @@ class ObjectBuilder {
     if (mesh_.triangles.size() == limits_.max_triangles) check_triangles(limits_.max_triangles + std::uint64_t{1});
     if (mesh_.triangles.empty()) forget_normals();
     mesh_.triangles.push_back({a, b, c});
+    largest_index_ = std::max({largest_index_, a, b, c});
   }
 
   // In a point cloud a coordinate that is not finite means "nothing measured here".
@@ -108,9 +109,14 @@ class ObjectBuilder {
                  file_size, limits_);
   }
 
-  // The object, a mesh where there is a face. Throws when there is nothing in it.
+  // The object, a mesh where there is a face. Throws when there is nothing in it, or a corner that is no vertex:
+  // readers check that with a line, but what they check against may be what a file announces.
   Object finish() {
-    if (!mesh_.triangles.empty()) return std::move(mesh_);
+    if (!mesh_.triangles.empty()) {
+      if (largest_index_ >= mesh_.vertices.size())
+        throw InputError(out_of_range(largest_index_, mesh_.vertices.size()));
+      return std::move(mesh_);
+    }
     if (mesh_.vertices.empty())
       throw InputError(left_out_ ? "holds only points without finite coordinates" : "holds neither a face nor a point");
     if (normals_.size() != mesh_.vertices.size()) forget_normals();
@@ -128,6 +134,7 @@ class ObjectBuilder {
   std::size_t corners_ = 0;
   std::uint32_t first_ = 0;
   std::uint32_t previous_ = 0;
+  std::uint32_t largest_index_ = 0;  // of all triangles
 };
 
 }  // namespace spincat::io

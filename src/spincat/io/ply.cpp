@@ -211,6 +211,7 @@ class PlyReader {
     const Element* face = header_.find("face");
     if (vertex != nullptr) vertices_ = vertex->count;
     object_.check_vertices(vertices_);
+    if (vertices_ > 0) check_properties(*vertex);
     is_mesh_ = face != nullptr && face->count > 0 &&
                std::any_of(face->properties.begin(), face->properties.end(), is_corner_list);
     if (const Element* strips = header_.find("tristrips"); strips != nullptr && strips->count > 0)
@@ -220,6 +221,9 @@ class PlyReader {
   }
 
  private:
+  // Rows without properties take no bytes and are passed over: vertices that are never read must not be counted on.
+  static void check_properties(const Element& vertex) { static_cast<void>(VertexColumns(vertex)); }
+
   void read_element(const Element& element) {
     if (element.properties.empty()) return;
     body_.begin_row(element, 0);

@@ -26,12 +26,27 @@ constexpr char to_lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c;
 }
 
-// from_chars says "out of range" for 1e-999 as for 1e999; only the second is an error.
+// What the number behind an 'e' comes to; the largest there is where it is larger.
+std::int64_t exponent_value(std::string_view text) {
+  constexpr std::int64_t most = std::int64_t{1} << 62;  // more than a file can have digits
+  const bool negative = text.starts_with('-');
+  if (negative || text.starts_with('+')) text.remove_prefix(1);
+  std::int64_t value = 0;
+  if (std::from_chars(text.data(), text.data() + text.size(), value).ec == std::errc::result_out_of_range) value = most;
+  value = std::min(value, most);
+  return negative ? -value : value;
+}
+
+// from_chars says "out of range" for 1e-999 as for 1e999; only the second is an error. The first digit that is no zero
+// decides, and where the point is after all: 0.001e999 is large, 1000e-999 tiny, and 0 may stand before 400 digits.
 bool is_tiny(std::string_view number) {
-  const std::size_t exponent = number.find_first_of("eE");
-  if (exponent != std::string_view::npos) return number.substr(exponent + 1).starts_with('-');
-  const std::size_t first = number.find_first_not_of("+-");
-  return first != std::string_view::npos && (number[first] == '0' || number[first] == '.');
+  const std::size_t digits_end = std::min(number.find_first_of("eE"), number.size());
+  const std::string_view digits = number.substr(0, digits_end);
+  const std::size_t first = digits.find_first_of("123456789");
+  if (first == std::string_view::npos) return true;
+  const std::size_t point = std::min(digits.find('.'), digits.size());
+  const std::int64_t place = static_cast<std::int64_t>(point) - static_cast<std::int64_t>(first);
+  return place + (digits_end < number.size() ? exponent_value(number.substr(digits_end + 1)) : 0) < 0;
 }
 
 }  // namespace

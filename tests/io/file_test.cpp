@@ -1,11 +1,13 @@
 #include "spincat/io/file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <future>
 #include <iterator>
@@ -57,6 +59,39 @@ TEST(ReadFile, ReadsAPipeToItsEnd) {
   EXPECT_EQ(read_file(pipe), large);
   writer.get();
   EXPECT_TRUE(fs::is_fifo(pipe));
+}
+
+TEST(ReadFile, GivesNoMoreThanIsAskedFor) {
+  const test::TempDir dir;
+  const std::string large(10'000, 'x');
+  const fs::path file = dir.write("file", large);
+  EXPECT_EQ(read_file(file, 0), "");
+  EXPECT_EQ(read_file(file, 9'999), large.substr(1));
+  EXPECT_EQ(read_file(file, 10'000), large);
+  EXPECT_EQ(read_file(file, 10'001), large);
+  fs::resize_file(file, std::uintmax_t{1} << 40);  // with a hole in it
+  EXPECT_EQ(read_file(file, 10'000), large);
+}
+
+// They have no end. (What the standard input is may be read: that is for the user to say.)
+TEST(ReadFile, RefusesDevices) {
+  const test::TempDir dir;
+  fs::create_symlink("/dev/zero", dir / "zero.off");
+  EXPECT_EQ(problem_of<InputError>([&] { read_file(dir / "zero.off"); }), "is a device, not a file");
+  EXPECT_EQ(problem_of<InputError>([] { read_file("/dev/full", 1); }), "is a device, not a file");
+  EXPECT_EQ(read_file("/dev/null"), "");
+}
+
+TEST(ReadFile, ReadsADeviceThatIsTheStandardInput) {
+  const int input = ::dup(STDIN_FILENO);
+  ASSERT_GE(input, 0);
+  const int zero = ::open("/dev/zero", O_RDONLY);
+  ASSERT_GE(::dup2(zero, STDIN_FILENO), 0);
+  ::close(zero);
+  EXPECT_EQ(read_file("/dev/stdin", 3), std::string(3, '\0'));
+  EXPECT_EQ(problem_of<InputError>([] { read_file("/dev/full", 1); }), "is a device, not a file");
+  ::dup2(input, STDIN_FILENO);
+  ::close(input);
 }
 
 TEST(ReadFile, SaysWhyItCannot) {

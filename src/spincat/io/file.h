@@ -1,14 +1,18 @@
 // Whole files in and out: read at once, written beside and renamed.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <string_view>
 
 namespace spincat {
 
-// The whole file as bytes. Throws InputError when it does not exist, is a folder or cannot be read.
-std::string read_file(const std::filesystem::path& file);
+// The whole file as bytes, or no more than its first `most`. Pipes are read to their end, and so is whatever device the
+// standard input is; other devices, which may have no end, are refused (but for /dev/null). Throws InputError when it
+// does not exist, is a folder or such a device, or cannot be read.
+std::string read_file(const std::filesystem::path& file, std::size_t most = std::numeric_limits<std::size_t>::max());
 
 // Writes `bytes` to a temporary file in the same folder, flushes it to the disk and renames it to `file`, so that
 // `file` holds either what it held before or everything. A symbolic link is followed; /dev/stdout and pipes are written

@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "bytes.h"
 #include "reading.h"
+#include "support/expect_error.h"
 
 namespace spincat {
 namespace {
@@ -371,6 +373,62 @@ TEST(Gltf, RepeatsAMeshOnlyAsFarAsItsSizeAllows) {
   const std::string problem = problem_with("a.gltf", document.dump());
   EXPECT_TRUE(problem.starts_with("would take ") && problem.ends_with("--max-growth raises this limit")) << problem;
   EXPECT_EQ(problem_with("a.gltf", document.dump(), {.max_growth = 1'000}), "(nothing thrown)");
+}
+
+// Each buffer takes its bytes, whatever file they come from.
+TEST(Gltf, CountsAFileThatManyBuffersNameOnce) {
+  const test::TempDir dir;
+  constexpr std::size_t size = 1'000'000;
+  dir.write("a.bin", square_buffer() + std::string(size, '\0'));
+  std::filesystem::create_hard_link(dir / "a.bin", dir / "b.bin");
+  std::filesystem::create_symlink("a.bin", dir / "c.bin");
+  const auto problem_with_buffers = [&](int count, const ReadLimits& limits = {}) {
+    json document = square_document("a.bin");
+    document["buffers"] = json::array();
+    for (int i = 0; i < count; ++i)
+      document["buffers"].push_back({{"byteLength", size}, {"uri", std::string(1, "abc"[i % 3]) + ".bin"}});
+    const std::filesystem::path file = dir.write("a.gltf", document.dump());
+    return test::input_error([&] { read_object(file, limits); });
+  };
+  EXPECT_EQ(problem_with_buffers(30), "no error");
+  const std::string problem = problem_with_buffers(45);  // more than 20 times 1 MB and 16 MB
+  EXPECT_TRUE(problem.find(": would take 46") != std::string::npos && problem.ends_with("raises this limit"))
+      << problem;
+  EXPECT_EQ(problem_with_buffers(45, {.max_growth = 40}), "no error");
+}
+
+TEST(Gltf, ReadsNoMoreOfAFileThanItsBufferHas) {
+  const test::TempDir dir;
+  std::filesystem::resize_file(dir.write("a.bin", square_buffer()), std::uintmax_t{1} << 40);  // a terabyte of nothing
+  expect_square(std::get<Mesh>(read_object(dir.write("a.gltf", square_document("a.bin").dump()))));
+}
+
+// What a repeated mesh comes to is weighed against what is read, not against the size of a file beside.
+TEST(Gltf, DoesNotCountWhatItDoesNotRead) {
+  const test::TempDir dir;
+  std::filesystem::resize_file(dir.write("a.bin", ""), 10'000'000);
+  json document = square_document("a.bin");
+  document["buffers"][0]["byteLength"] = 240'000;
+  document["bufferViews"] = {{{"buffer", 0}, {"byteLength", 240'000}}, {{"buffer", 0}, {"byteLength", 12}}};
+  document["accessors"][0]["count"] = 20'000;
+  for (int i = 1; i < 40; ++i) document["nodes"].push_back({{"mesh", 0}}), document["scenes"][0]["nodes"].push_back(i);
+  const std::string problem = test::input_error([&] { read_object(dir.write("a.gltf", document.dump())); });
+  EXPECT_NE(problem.find("would take "), std::string::npos) << problem;
+}
+
+TEST(Gltf, SaysWhatIsWrongWithAFileBeside) {
+  const test::TempDir dir;
+  dir.write("a.bin", square_buffer().substr(1));
+  std::filesystem::create_symlink("loop.bin", dir / "loop.bin");
+  std::filesystem::create_symlink("/dev/zero", dir / "zero.bin");
+  const auto problem_with_file = [&](const std::string& uri) {
+    const std::filesystem::path file = dir.write("a.gltf", square_document(uri).dump());
+    return test::input_error([&] { read_object(file); }).substr(file.string().size() + 2);
+  };
+  EXPECT_EQ(problem_with_file("a.bin"), "its buffer 0 is cut off: 59 of 60 bytes");
+  EXPECT_EQ(problem_with_file("loop.bin"), "its buffer 'loop.bin': too many levels of symbolic links");
+  EXPECT_EQ(problem_with_file("zero.bin"), "its buffer 'zero.bin' is no regular file");
+  EXPECT_EQ(problem_with_file(std::string(300, 'a')), "its buffer 'aaaaaaaaaaaaaaaaaaaaaaaa...': file name too long");
 }
 
 TEST(Gltf, SurvivesDamage) {

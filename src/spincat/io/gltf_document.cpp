@@ -1,9 +1,11 @@
 #include "spincat/io/gltf_document.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +13,7 @@
 #include <filesystem>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -22,6 +25,7 @@
 #include "spincat/error.h"
 #include "spincat/io/binary.h"
 #include "spincat/io/file.h"
+#include "spincat/io/system_words.h"
 #include "spincat/io/text_cursor.h"
 
 namespace spincat::io {
@@ -173,42 +177,95 @@ std::string decode_percent(std::string_view uri) {
   return text;
 }
 
-std::string read_beside(const std::filesystem::path& folder, const std::string& uri) {
+std::filesystem::path path_beside(const std::filesystem::path& folder, const std::string& uri) {
   const std::filesystem::path relative = std::filesystem::path(decode_percent(uri)).lexically_normal();
   const bool outside = relative.is_absolute() || relative.empty() || *relative.begin() == "..";
   if (outside || relative.native().find('\0') != std::string::npos)
     throw InputError(fmt::format("its buffer {} does not lie in the file's own folder", in_quotes(uri)));
-  const std::filesystem::path file = folder / relative;
-  std::error_code error;
-  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
-    throw InputError(fmt::format("its buffer {} is no regular file", in_quotes(uri)));
+  return folder / relative;
+}
+
+struct stat status_beside(const std::filesystem::path& folder, const std::string& uri) {
+  struct stat status = {};
+  if (::stat(path_beside(folder, uri).c_str(), &status) != 0)
+    throw InputError(fmt::format("its buffer {}: {}", in_quotes(uri), in_words(errno)));
+  if (!S_ISREG(status.st_mode)) throw InputError(fmt::format("its buffer {} is no regular file", in_quotes(uri)));
+  return status;
+}
+
+std::string read_beside(const std::filesystem::path& folder, const std::string& uri, std::uint64_t length) {
   try {
-    return read_file(file);
-  } catch (const InputError& missing) {
-    throw InputError(fmt::format("its buffer {}: {}", in_quotes(uri), missing.problem()));
+    return read_file(path_beside(folder, uri), length);
+  } catch (const InputError& unread) {
+    throw InputError(fmt::format("its buffer {}: {}", in_quotes(uri), unread.problem()));
   }
 }
 
-// Finds the bytes of every buffer and leaves its number where its URI was, by which tinygltf asks for it below. Buffers
-// written into the file itself (data:) stay.
+std::uint64_t length_of(const json& buffer, std::size_t number) {
+  const auto length = buffer.is_object() ? buffer.find("byteLength") : buffer.end();
+  if (length == buffer.end() || !length->is_number_unsigned())
+    throw InputError(fmt::format("its buffer {} has no byteLength", number));
+  return length->get<std::uint64_t>();
+}
+
+const std::string* uri_of(const json& buffer) {
+  const auto uri = buffer.find("uri");
+  return uri != buffer.end() ? uri->get_ptr<const std::string*>() : nullptr;
+}
+
+void check_whole(std::size_t number, std::uint64_t size, std::uint64_t length) {
+  if (size < length) throw InputError(fmt::format("its buffer {} is cut off: {} of {} bytes", number, size, length));
+}
+
+// In bytes. Buffers written into the text (data:) do not count: they are as long as it.
+struct BufferSizes {
+  std::uint64_t memory = 0;  // that all of them take
+  std::uint64_t largest = 0;
+  std::uint64_t files = 0;  // what is read of the files beside, each counted once
+};
+
+// Looks the buffers up without reading them: a few bytes of text name one, any number of them may name the same file,
+// and that may be of any size.
+BufferSizes measure_buffers(const json& document, const Container& container, const std::filesystem::path& folder) {
+  constexpr std::uint64_t most = std::uint64_t{1} << 60;  // beyond all memory; sums stay below the largest number
+  BufferSizes sizes;
+  std::map<std::pair<dev_t, ino_t>, std::uint64_t> read_of_file;  // by which it is known under all its names
+  for (std::size_t i = 0; i < array_size(document, "buffers"); ++i) {
+    const json& buffer = document["buffers"][i];
+    const std::uint64_t length = length_of(buffer, i);
+    const std::string* uri = uri_of(buffer);
+    if (uri != nullptr && tinygltf::IsDataURI(*uri)) continue;
+    if (uri != nullptr) {
+      const struct stat status = status_beside(folder, *uri);
+      check_whole(i, static_cast<std::uint64_t>(status.st_size), length);
+      std::uint64_t& read = read_of_file[{status.st_dev, status.st_ino}];
+      const std::uint64_t before = std::exchange(read, std::max(read, length));
+      sizes.files = std::min(most, sizes.files + read - before);
+    } else {
+      check_whole(i, i == 0 && container.binary ? container.binary->size() : 0, length);
+    }
+    sizes.memory = std::min(most, sizes.memory + length);
+    sizes.largest = std::min(most, std::max(sizes.largest, length));
+  }
+  return sizes;
+}
+
+// The bytes of every buffer, after measure_buffers. Leaves its number where its URI was, by which tinygltf asks for it
+// below. Buffers written into the file itself (data:) stay.
 std::vector<std::string> collect_buffers(json& document, const Container& container,
                                          const std::filesystem::path& folder) {
   std::vector<std::string> buffers(array_size(document, "buffers"));
   for (std::size_t i = 0; i < buffers.size(); ++i) {
     json& buffer = document["buffers"][i];
-    if (!buffer.is_object() || !buffer.contains("byteLength") || !buffer["byteLength"].is_number_unsigned())
-      throw InputError(fmt::format("its buffer {} has no byteLength", i));
-    const auto length = buffer["byteLength"].get<std::uint64_t>();
-    const bool has_uri = buffer.contains("uri") && buffer["uri"].is_string();
-    if (has_uri && tinygltf::IsDataURI(buffer["uri"].get_ref<const std::string&>())) continue;
-    if (has_uri) {
-      buffers[i] = read_beside(folder, buffer["uri"].get_ref<const std::string&>());
-    } else if (i == 0 && container.binary) {
-      buffers[i] = *container.binary;
+    const std::uint64_t length = length_of(buffer, i);
+    const std::string* uri = uri_of(buffer);
+    if (uri != nullptr && tinygltf::IsDataURI(*uri)) continue;
+    if (uri != nullptr) {
+      buffers[i] = read_beside(folder, *uri, length);
+    } else if (container.binary) {
+      buffers[i] = container.binary->substr(0, length);
     }
-    if (buffers[i].size() < length)
-      throw InputError(fmt::format("its buffer {} is cut off: {} of {} bytes", i, buffers[i].size(), length));
-    buffers[i].resize(length);
+    check_whole(i, buffers[i].size(), length);  // files may have changed
     buffer["uri"] = std::to_string(i);
   }
   return buffers;
@@ -248,11 +305,12 @@ GltfDocument read_gltf_document(std::string_view bytes, const std::filesystem::p
   const std::uint64_t memory_of_values = check_brackets(container.text, limits);
   json document = parse(container.text);
   check_extensions(document);
+  const BufferSizes sizes = measure_buffers(document, container, folder);
+  const std::uint64_t size = bytes.size() + sizes.files;
+  const std::uint64_t memory = while_growing * memory_of(document) + sizes.memory;
+  // Each buffer is there twice while tinygltf takes it over.
+  check_growth(memory_of_values + memory + sizes.largest, size, limits);
   std::vector<std::string> buffers = collect_buffers(document, container, folder);
-  std::size_t size = bytes.size();
-  for (const std::string& buffer : buffers) size += buffer.size();
-  const std::uint64_t memory = memory_of(document);
-  check_growth(memory_of_values + while_growing * memory, size, limits);
   const std::string text = document.dump();
   document = json();  // tinygltf makes its own: not both at once
   if (text.size() > std::numeric_limits<std::uint32_t>::max()) throw InputError("holds more than 4 GB of JSON");
@@ -262,7 +320,7 @@ GltfDocument read_gltf_document(std::string_view bytes, const std::filesystem::p
   reader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
                            void*) { return true; },
                         nullptr);
-  GltfDocument result{{}, size, while_growing * memory};
+  GltfDocument result{{}, size, memory};
   std::string error, warning;
   bool read = false;
   try {

@@ -22,8 +22,8 @@ namespace spincat::io {
 
 struct GltfDocument {
   tinygltf::Model model;
-  std::uint64_t file_size;  // bytes of the file and of the files with its buffers
-  std::uint64_t memory;     // what the model may take, but for its buffers
+  std::uint64_t file_size;  // bytes of the file and of what is read of the files with its buffers, each counted once
+  std::uint64_t memory;     // what the model may take, but for buffers written into the file (data:)
 };
 
 // Reads a .gltf or .glb file with every buffer it needs. Everything that is no shape (images, materials, animations,

@@ -375,6 +375,27 @@ TEST(Gltf, RepeatsAMeshOnlyAsFarAsItsSizeAllows) {
   EXPECT_EQ(problem_with("a.gltf", document.dump(), {.max_growth = 1'000}), "(nothing thrown)");
 }
 
+// Nodes and primitives of a few bytes each, whose number is multiplied.
+TEST(Gltf, LooksAtPrimitivesOfNothingOnlyAsOftenAsItsSizeAllows) {
+  json document = square_document();
+  constexpr int many = 2'000;
+  const json lines = {{"attributes", {{"POSITION", 0}}}, {"mode", 1}};
+  const json none = {{"attributes", json::object()}};
+  for (const json& nothing : {lines, none}) {
+    document["meshes"][0]["primitives"] = json::array();
+    document["nodes"] = json::array();
+    document["scenes"][0]["nodes"] = json::array();
+    for (int i = 0; i < many; ++i) {
+      document["meshes"][0]["primitives"].push_back(nothing);
+      document["nodes"].push_back({{"mesh", 0}});
+      document["scenes"][0]["nodes"].push_back(i);
+    }
+    const std::string problem = problem_with("a.gltf", document.dump());
+    EXPECT_TRUE(problem.starts_with("would take ") && problem.ends_with("--max-growth raises this limit")) << problem;
+    EXPECT_EQ(problem_with("a.gltf", document.dump(), {.max_growth = 5'000}), "holds neither a face nor a point");
+  }
+}
+
 // Each buffer takes its bytes, whatever file they come from.
 TEST(Gltf, CountsAFileThatManyBuffersNameOnce) {
   const test::TempDir dir;

@@ -143,6 +143,13 @@ Preparation prepared_object(const SpinArguments& arguments, const Settings& sett
   }
 }
 
+// Where a name leads to, as far as that can be told; whoever writes there says what is wrong with it.
+fs::path place_of(const fs::path& file) {
+  std::error_code error;
+  fs::path place = fs::weakly_canonical(fs::absolute(file, error), error);
+  return error ? file : place;
+}
+
 // Before the work, not after it.
 void check_outputs(const SpinArguments& arguments) {
   check_writable(arguments.output);
@@ -152,8 +159,7 @@ void check_outputs(const SpinArguments& arguments) {
   if (!ends_in(arguments.points_output, ".npy")) {
     throw InputError(arguments.points_output.string(), "expected a name that ends in .npy");
   }
-  if (fs::weakly_canonical(fs::absolute(arguments.points_output)) ==
-      fs::weakly_canonical(fs::absolute(arguments.output))) {
+  if (place_of(arguments.points_output) == place_of(arguments.output)) {
     throw InputError(arguments.output.string(), "is the name for both the images and the points");
   }
   check_writable(arguments.points_output);

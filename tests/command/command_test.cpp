@@ -362,6 +362,21 @@ TEST_F(Command, ABatchNamesTheGoodAndReportsTheBadOnce) {
   EXPECT_EQ(lines(result.err)[1], "spincat: 1 of 3 objects could not be named");
 }
 
+// Whatever is wrong with one: the others are named.
+TEST_F(Command, ABatchGoesOnAfterWhatTheSystemRefuses) {
+  train();
+  fs::create_symlink("loop", dir_.path() / "loop");
+  const std::string endless(300, 'a');
+  const Result result = run("classify shapes.spincat loop " + endless + " new-cone.off/below new-cone.off");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(lines(result.out).size(), 2U) << result.out;
+  const auto said = lines(result.err);
+  ASSERT_EQ(said.size(), 4U) << result.err;
+  EXPECT_EQ(said[0], "spincat: loop: too many levels of symbolic links");
+  EXPECT_EQ(said[1], "spincat: " + endless + ": file name too long");
+  EXPECT_EQ(said[2], "spincat: new-cone.off/below: not a directory");
+}
+
 TEST_F(Command, ClosedStreamsAreNoReasonToCrash) {
   train();
   EXPECT_EQ(run("classify shapes.spincat absent.off", "2>&-").code, 2);

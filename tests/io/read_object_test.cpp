@@ -1,8 +1,10 @@
 #include "spincat/io/read_object.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 
 #include "reading.h"
@@ -40,6 +42,26 @@ TEST(ReadObject, SaysWhatElseItWasGiven) {
   EXPECT_EQ(message_of(dir.path()), dir.path().string() + ": is a folder, not an object");
   EXPECT_EQ(message_of(dir / "missing.off"), (dir / "missing.off").string() + ": no such file");
   EXPECT_EQ(message_of(dir / "missing"), (dir / "missing").string() + ": no such file");
+}
+
+// Whatever the name ends in: one that tells no format is looked at in another way.
+TEST(ReadObject, SaysWhyAFileCannotBeRead) {
+  const test::TempDir dir;
+  dir.write("file", "x");
+  for (const std::string ending : {"", ".off", ".abc"}) {
+    const std::string loop = (dir / ("loop" + ending)).string();
+    std::filesystem::create_symlink(loop, loop);
+    EXPECT_EQ(message_of(loop), loop + ": too many levels of symbolic links");
+    const std::string below = (dir / "file").string() + "/below" + ending;
+    EXPECT_EQ(message_of(below), below + ": not a directory");
+    const std::string endless = std::string(300, 'a') + ending;
+    EXPECT_EQ(message_of(endless), endless + ": file name too long");
+    if (::geteuid() == 0) continue;  // root reads everything
+    const auto shut = dir.write("shut" + ending + "/a" + ending, "x");
+    std::filesystem::permissions(shut.parent_path(), std::filesystem::perms::none);
+    EXPECT_EQ(message_of(shut), shut.string() + ": permission denied");
+    std::filesystem::permissions(shut.parent_path(), std::filesystem::perms::owner_all);
+  }
 }
 
 TEST(ReadObject, RecognisesAModel) {

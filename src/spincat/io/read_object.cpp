@@ -7,7 +7,6 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
-#include <fstream>
 #include <new>
 #include <string>
 #include <string_view>
@@ -19,6 +18,7 @@
 #include "spincat/io/file.h"
 #include "spincat/io/formats.h"
 #include "spincat/io/magic.h"
+#include "spincat/io/system_words.h"
 
 namespace spincat {
 namespace {
@@ -62,22 +62,16 @@ const Format* format_of(const std::filesystem::path& file) {
   return found == formats.end() ? nullptr : found;
 }
 
-// The first bytes only: a file of an unknown kind may be of any size.
-std::string first_bytes(const std::filesystem::path& file) {
-  std::string bytes(kFileMagic.size(), '\0');
-  std::ifstream in(file, std::ios::binary);
-  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(in.gcount()));
-  return bytes;
-}
-
 [[noreturn]] void fail_as_model() {
   throw InputError("is a spincat model, not an object");
 }
 
 [[noreturn]] void fail_as_unknown(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) throw InputError("no such file");
-  if (std::filesystem::is_regular_file(file) && first_bytes(file) == kFileMagic) fail_as_model();
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) throw InputError(in_words(error.value()));
+  // The first bytes only: a file of an unknown kind may be of any size.
+  if (std::filesystem::is_regular_file(status) && read_file(file, kFileMagic.size()) == kFileMagic) fail_as_model();
   const std::string extension = file.extension().string();
   throw InputError(fmt::format(
       "{}; spincat reads {}",

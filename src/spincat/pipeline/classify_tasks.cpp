@@ -1,5 +1,6 @@
 #include "spincat/pipeline/classify_tasks.h"
 
+#include <exception>
 #include <memory>
 #include <new>
 #include <utility>
@@ -24,6 +25,8 @@ Answer answer_for(const Model& model, const std::filesystem::path& file, const R
     return {{}, file.string() + ": not enough memory for it"};
   } catch (const Error& error) {
     return {{}, error.what()};
+  } catch (const std::exception& error) {  // whatever it is, the other files are named
+    return {{}, file.string() + ": " + error.what()};
   }
 }
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -68,12 +69,13 @@ class Command : public testing::Test {
     std::string err;
   };
 
-  // Runs the command in the temporary folder through the shell, so that redirections can be tested.
-  Result run(const std::string& arguments, const std::string& redirect = "") {
+  // Runs the command in the temporary folder through the shell, so that redirections can be tested; `before` is done
+  // there, too.
+  Result run(const std::string& arguments, const std::string& redirect = "", const std::string& before = "true") {
     const fs::path out = dir_.path() / ".out";
     const fs::path err = dir_.path() / ".err";
-    const std::string line = fmt::format("cd '{}' && '{}' {} >'{}' 2>'{}' </dev/null {}", dir_.path().string(),
-                                         SPINCAT_COMMAND, arguments, out.string(), err.string(), redirect);
+    const std::string line = fmt::format("cd '{}' && {} && '{}' {} >'{}' 2>'{}' </dev/null {}", dir_.path().string(),
+                                         before, SPINCAT_COMMAND, arguments, out.string(), err.string(), redirect);
     const int status = std::system(line.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contents(out), contents(err)};
   }
@@ -375,6 +377,26 @@ TEST_F(Command, ABatchGoesOnAfterWhatTheSystemRefuses) {
   EXPECT_EQ(said[0], "spincat: loop: too many levels of symbolic links");
   EXPECT_EQ(said[1], "spincat: " + endless + ": file name too long");
   EXPECT_EQ(said[2], "spincat: new-cone.off/below: not a directory");
+}
+
+// Of a terabyte, where the command may take 4 GB.
+TEST_F(Command, AnObjectThatIsTooLargeForTheMemoryIsSkipped) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers take more memory than the test lets the command have";
+#endif
+  make_shapes();
+  fs::resize_file(dir_.write("shapes/box/large.off", "OFF\n"), std::uintmax_t{1} << 40);
+  const std::string small = " --copies 0 --points 256 --spin-points 32 --threads 2";
+  EXPECT_EQ(run("sweep shapes --vary c=3 --splits 2" + small, "", "ulimit -v 4000000").code, 0);
+  for (const std::string command : {"train shapes -o x.spincat", "evaluate shapes --splits 2"}) {
+    const Result result = run(command + small, "", "ulimit -v 4000000");
+    EXPECT_EQ(result.code, 0) << command << "\n" << result.err;
+    EXPECT_NE(result.err.find("shapes/box/large.off: not enough memory"), std::string::npos) << result.err;
+  }
+  const Result named = run("classify x.spincat shapes/box/large.off new-cone.off", "", "ulimit -v 4000000");
+  EXPECT_EQ(named.code, 2);
+  EXPECT_EQ(lines(named.out).size(), 2U) << named.out;
+  EXPECT_NE(named.err.find("shapes/box/large.off: not enough memory"), std::string::npos) << named.err;
 }
 
 TEST_F(Command, ClosedStreamsAreNoReasonToCrash) {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <new>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -99,6 +100,8 @@ Object read_object(const std::filesystem::path& file, const ReadLimits& limits) 
     if (!error.file().empty()) throw;
     throw InputError(file.string(), error.problem());
   } catch (const std::bad_alloc&) {
+    throw RunError(file.string(), "not enough memory to read it");
+  } catch (const std::length_error&) {  // more than any memory has
     throw RunError(file.string(), "not enough memory to read it");
   }
 }

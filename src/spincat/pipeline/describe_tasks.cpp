@@ -1,5 +1,6 @@
 #include "spincat/pipeline/describe_tasks.h"
 
+#include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -21,25 +22,18 @@ namespace {
 // From so many spin points on, an object is worth sharing out by itself.
 constexpr int kDenseSpinPoints = 8 * static_cast<int>(kSpinImageBlock * 8);
 
-using DescribeOne = std::function<FeatureVector(const Object& object, int copy, StageSeconds& seconds)>;
+// A RunError while reading says that the memory does not suffice for this object. Later ones are those of a farm.
+Object read_or_refuse(const std::function<Object()>& read) {
+  try {
+    return read();
+  } catch (const RunError& error) {
+    throw InputError(error.file(), error.problem());
+  }
+}
 
-// `describe_one` is called for the object itself and each of its copies.
 Described described_file(const std::filesystem::path& file, int views, const ReadLimits& limits,
                          const DescribeOne& describe_one) {
-  Described result;
-  try {
-    Stopwatch watch;
-    const Object object = read_object(file, limits);
-    result.kind = kind_of(object);
-    result.seconds.read = watch.lap();
-    for (int copy = 0; copy < views; ++copy) {
-      result.features.push_back(describe_one(object, copy, result.seconds));
-    }
-  } catch (const InputError& error) {
-    result.features.clear();
-    result.problem = error.problem();
-  }
-  return result;
+  return describe_object([&] { return read_object(file, limits); }, views, describe_one);
 }
 
 Work describe_work(const Settings& settings, int views, const ReadLimits& limits) {
@@ -71,6 +65,28 @@ void describe_by_points(TaskFarm& farm, const DescribeJob& job,
 }
 
 }  // namespace
+
+Described describe_object(const std::function<Object()>& read, int rows, const DescribeOne& describe_one) {
+  Described result;
+  const auto refuse = [&](const std::string& problem) {
+    result.features.clear();
+    result.problem = problem;
+  };
+  try {
+    Stopwatch watch;
+    const Object object = read_or_refuse(read);
+    result.kind = kind_of(object);
+    result.seconds.read = watch.lap();
+    for (int row = 0; row < rows; ++row) {
+      result.features.push_back(describe_one(object, row, result.seconds));
+    }
+  } catch (const InputError& error) {
+    refuse(error.problem());
+  } catch (const std::bad_alloc&) {
+    refuse("not enough memory for it");
+  }
+  return result;
+}
 
 std::string pack(const Described& described) {
   Packer packer;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "spincat/encode/feature_vector.h"
+#include "spincat/geometry/object.h"
 #include "spincat/io/read_limits.h"
 #include "spincat/parallel/task.h"
 #include "spincat/parallel/task_farm.h"
@@ -28,6 +29,12 @@ struct Described {
   ObjectKind kind = ObjectKind::mesh;   // where it could be read
   StageSeconds seconds;
 };
+
+// Describes one object: `read` gives it, and `describe_one` describes it as it is (row 0) and in its other rows. What
+// is wrong with the object becomes its problem; so does memory that does not suffice for it, as others may need less.
+// All other errors are thrown.
+using DescribeOne = std::function<FeatureVector(const Object& object, int row, StageSeconds& seconds)>;
+Described describe_object(const std::function<Object()>& read, int rows, const DescribeOne& describe_one);
 
 // As a task's result.
 std::string pack(const Described& described);

@@ -19,7 +19,6 @@
 #include "spincat/pipeline/packed_limits.h"
 #include "spincat/pipeline/rank_problems.h"
 #include "spincat/pipeline/settings_json.h"
-#include "spincat/pipeline/stopwatch.h"
 #include "spincat/pipeline/task_kinds.h"
 #include "spincat/prepare/surface_samples.h"
 
@@ -123,21 +122,12 @@ struct TestedTask {
 };
 
 Described describe_task(const TestedTask& task, const Settings& settings, const TestOptions& options) {
-  Described described;
-  try {
-    Stopwatch watch;
-    const Object object =
-        in_test_form(read_object(std::filesystem::path(task.file), options.limits), options, task.seed);
-    described.kind = kind_of(object);
-    described.seconds.read = watch.lap();
-    for (int view = 0; view < settings.tested_rows(); ++view) {
-      described.features.push_back(describe(object, settings, view, &described.seconds));
-    }
-  } catch (const InputError& error) {
-    described.features.clear();
-    described.problem = error.problem();
-  }
-  return described;
+  const auto read = [&] {
+    return in_test_form(read_object(std::filesystem::path(task.file), options.limits), options, task.seed);
+  };
+  return describe_object(read, settings.tested_rows(), [&](const Object& object, int view, StageSeconds& seconds) {
+    return describe(object, settings, view, &seconds);
+  });
 }
 
 Work tested_work(const Settings& settings, const TestOptions& options) {

@@ -1,6 +1,7 @@
 // The spincat command as a user meets it: exit codes, streams, files.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include <chrono>
@@ -377,6 +378,20 @@ TEST_F(Command, ABatchGoesOnAfterWhatTheSystemRefuses) {
   EXPECT_EQ(said[0], "spincat: loop: too many levels of symbolic links");
   EXPECT_EQ(said[1], "spincat: " + endless + ": file name too long");
   EXPECT_EQ(said[2], "spincat: new-cone.off/below: not a directory");
+}
+
+TEST_F(Command, StrangersThatAreNoFilesAreListedAndTheOthersTested) {
+  make_shapes();
+  dir_.write("list.csv", "path\nnew box.off\npipe.off\nendless.off\n");
+  ASSERT_EQ(::mkfifo((dir_.path() / "pipe.off").c_str(), 0600), 0);  // nobody writes to it
+  fs::create_symlink("/dev/zero", dir_.path() / "endless.off");
+  const Result result =
+      run("evaluate shapes --confidence --unknown list.csv --splits 2 --copies 0 --points 256 --spin-points 32");
+  EXPECT_EQ(result.code, 0) << result.err;
+  for (const char* file : {"pipe.off", "endless.off"}) {
+    EXPECT_NE(result.err.find(fmt::format("spincat: {}: is not a regular file", file)), std::string::npos)
+        << result.err;
+  }
 }
 
 // Of a terabyte, where the command may take 4 GB.

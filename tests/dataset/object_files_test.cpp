@@ -22,11 +22,12 @@ TEST(ObjectFiles, AreFoundInAllFoldersBelow) {
   EXPECT_TRUE(unread.empty());
 }
 
-TEST(ObjectFiles, LostLinksCountButFoldersPipesAndLinksToFoldersDoNot) {
+TEST(ObjectFiles, LostLinksCountButFoldersPipesDevicesAndLinksToFoldersDoNot) {
   const test::TempDir dir;
   fs::create_symlink("nowhere", dir / "lost.off");
   fs::create_directories(dir / "folder.off");
   ASSERT_EQ(::mkfifo((dir / "pipe.off").c_str(), 0600), 0);  // reading it would wait for ever
+  fs::create_symlink("/dev/zero", dir / "endless.off");
   fs::create_symlink(dir.path(), dir / "circle.off");
   std::vector<UnreadFolder> unread;
   EXPECT_EQ(object_files_below(dir.path(), unread), Paths{dir / "lost.off"});

@@ -2,12 +2,14 @@
 // SPINCAT_PSB names a folder with classification/ and db/.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstdlib>
 #include <map>
 
 #include "dataset_lines.h"
 #include "spincat/dataset/dataset.h"
+#include "support/expect_error.h"
 #include "support/temp_dir.h"
 
 namespace spincat {
@@ -76,6 +78,12 @@ TEST_F(SmallPsb, TakesTheNearestAncestorThatAMapLists) {
   const fs::path map = dir_.write("map.csv", "class,category\nfurniture,other\nseat,seat\nchair,chair\n");
   const Dataset dataset = read_dataset({dir_ / "classification/train.cla"}, {.models = {}, .category_map = map});
   EXPECT_EQ(counts_of(dataset), (Counts{{"other", 10}, {"seat", 1}, {"chair", 2}}));
+}
+
+TEST_F(SmallPsb, RefusesAClassificationThatIsNoFile) {
+  ASSERT_EQ(::mkfifo((dir_ / "classification/more.cla").c_str(), 0600), 0);  // reading it would wait for ever
+  EXPECT_EQ(test::input_error([&] { read_dataset({dir_.path()}); }),
+            (dir_ / "classification/more.cla").string() + ": is not a regular file");
 }
 
 TEST(Psb, FurnitureHasThePublishedCounts) {

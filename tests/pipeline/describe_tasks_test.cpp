@@ -1,16 +1,24 @@
 #include "spincat/pipeline/describe_tasks.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <filesystem>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "spincat/error.h"
+#include "spincat/pipeline/test_objects.h"
 #include "support/shapes.h"
+#include "support/temp_dir.h"
+#include "tiny_dataset.h"
 
 namespace spincat {
 namespace {
+
+namespace fs = std::filesystem;
 
 Object some_box() {
   return test::box();
@@ -52,6 +60,52 @@ TEST(DescribeObject, MakesAProblemOfWhatTheObjectIsToBlameFor) {
 TEST(DescribeObject, ThrowsWhatTheObjectIsNotToBlameFor) {
   EXPECT_THROW(describe_object(some_box, 1, [](auto&&...) -> FeatureVector { throw RunError("lost"); }), RunError);
   EXPECT_THROW(describe_object([]() -> Object { throw std::logic_error("no"); }, 1, one_number), std::logic_error);
+}
+
+class ListedObjects : public testing::Test {
+ protected:
+  ListedObjects() {
+    dir_.write("good.off", test::off_text(test::box()));
+    EXPECT_EQ(::mkfifo((dir_ / "pipe.off").c_str(), 0600), 0);
+    fs::create_symlink("/dev/zero", dir_ / "endless.off");
+    fs::create_symlink("loop.off", dir_ / "loop.off");
+    fs::create_directory(dir_ / "folder.off");
+    for (const char* name : {"good.off", "pipe.off", "endless.off", "loop.off", "folder.off", "missing.off"}) {
+      files_.push_back(dir_ / name);
+    }
+  }
+
+  const std::vector<std::string> problems_ = {"",
+                                              "is not a regular file",
+                                              "is not a regular file",
+                                              "too many levels of symbolic links",
+                                              "is a folder, not an object",
+                                              "no such file"};
+  test::TempDir dir_;
+  std::vector<fs::path> files_;
+};
+
+// Nobody writes to the pipe, and the device never ends.
+TEST_F(ListedObjects, MustBeRegularFilesToBeDescribed) {
+  OwnFarm farm(2);
+  const Settings settings = test::tiny_settings();
+  const auto file = [&](std::size_t i) -> const fs::path& { return files_[i]; };
+  const DescribeJob job{files_.size(), file, settings, 1, Division::sums, {}, {}};
+  std::vector<std::string> problems;
+  describe_files(farm.farm(), job,
+                 [&](std::size_t, const Described& described) { problems.push_back(described.problem); }, {});
+  EXPECT_EQ(problems, problems_);
+}
+
+TEST_F(ListedObjects, MustBeRegularFilesToBeTested) {
+  OwnFarm farm(2);
+  std::vector<DatasetObject> objects;
+  for (const fs::path& file : files_) {
+    objects.push_back({file, 0, ""});
+  }
+  const Settings settings = test::tiny_settings();
+  const std::size_t length = describe(test::box(), settings, 0).values.size();
+  EXPECT_EQ(describe_tested(objects, length, settings, {}, farm.farm(), {}).problems, problems_);
 }
 
 }  // namespace

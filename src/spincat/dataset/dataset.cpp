@@ -48,6 +48,14 @@ bool is_folder(const fs::path& path) {
   return fs::is_directory(path, error);
 }
 
+// Nobody may ever write to a pipe that lies in a folder.
+void check_regular(const fs::directory_entry& entry) {
+  std::error_code ignored;
+  if (entry.exists(ignored) && !entry.is_regular_file(ignored)) {
+    throw InputError(entry.path().string(), "is not a regular file");
+  }
+}
+
 // The .cla files of a folder laid out as the Princeton Shape Benchmark is; none where it is not.
 std::vector<fs::path> classification_files(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -57,6 +65,7 @@ std::vector<fs::path> classification_files(const fs::path& folder) {
          next.increment(error)) {
       const bool is_hidden = next->path().filename().native().starts_with('.');  // "._train.cla" from a Macintosh
       if (!is_hidden && lower_case_extension(next->path()) == ".cla") {
+        check_regular(*next);
         files.push_back(next->path());
       }
     }

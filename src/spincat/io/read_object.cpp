@@ -106,6 +106,15 @@ Object read_object(const std::filesystem::path& file, const ReadLimits& limits) 
   }
 }
 
+Object read_listed_object(const std::filesystem::path& file, const ReadLimits& limits) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  const bool is_other = std::filesystem::exists(status) && !std::filesystem::is_directory(status) &&
+                        !std::filesystem::is_regular_file(status);
+  if (is_other) throw InputError(file.string(), "is not a regular file");
+  return read_object(file, limits);
+}
+
 bool is_object_file(const std::filesystem::path& file) {
   const Format* format = format_of(file);
   return format != nullptr && format->extension != ".txt";

@@ -22,6 +22,10 @@ namespace spincat {
 // recognised and named as such.
 Object read_object(const std::filesystem::path& file, const ReadLimits& limits = {});
 
+// The same for a file that a folder holds or a list names. It must be a regular file: nobody may ever write to a pipe
+// of that name, and the others would wait for it.
+Object read_listed_object(const std::filesystem::path& file, const ReadLimits& limits = {});
+
 // Whether a file in a folder of objects is meant as one: read_object knows its extension, which is not .txt (there,
 // those are notes).
 bool is_object_file(const std::filesystem::path& file);

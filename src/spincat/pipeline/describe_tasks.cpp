@@ -33,7 +33,7 @@ Object read_or_refuse(const std::function<Object()>& read) {
 
 Described described_file(const std::filesystem::path& file, int views, const ReadLimits& limits,
                          const DescribeOne& describe_one) {
-  return describe_object([&] { return read_object(file, limits); }, views, describe_one);
+  return describe_object([&] { return read_listed_object(file, limits); }, views, describe_one);
 }
 
 Work describe_work(const Settings& settings, int views, const ReadLimits& limits) {

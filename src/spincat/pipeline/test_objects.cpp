@@ -123,7 +123,7 @@ struct TestedTask {
 
 Described describe_task(const TestedTask& task, const Settings& settings, const TestOptions& options) {
   const auto read = [&] {
-    return in_test_form(read_object(std::filesystem::path(task.file), options.limits), options, task.seed);
+    return in_test_form(read_listed_object(std::filesystem::path(task.file), options.limits), options, task.seed);
   };
   return describe_object(read, settings.tested_rows(), [&](const Object& object, int view, StageSeconds& seconds) {
     return describe(object, settings, view, &seconds);

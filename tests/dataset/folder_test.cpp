@@ -72,7 +72,17 @@ TEST(FolderDataset, NeedsTwoCategories) {
             name + ": holds no objects (" + expected + "; objects outside such sub-folders: 1)");
   dir.write("chair/a.off", "");
   EXPECT_EQ(input_error([&] { read_dataset({dir.path()}); }),
-            name + ": only one category (chair): two or more are needed");
+            name + ": only one category ('chair'): two or more are needed");
+}
+
+// A name may hold anything, and be as long as a field of a list.
+TEST(FolderDataset, ShowsAStrangeCategoryInALine) {
+  const test::TempDir dir;
+  dir.write("a.off", "");
+  const fs::path list =
+      dir.write("list.csv", "path,category\na.off,\"a\nb\x1B[2J" + std::string(100'000, 'c') + "\"\n");
+  EXPECT_EQ(input_error([&] { read_dataset({list}); }), list.string() + ": only one category ('a\\x0ab\\x1b[2J" +
+                                                            std::string(67, 'c') + "...'): two or more are needed");
 }
 
 TEST(FolderDataset, FollowsLinkedFoldersButNotInCircles) {

@@ -31,13 +31,16 @@ CategoryMap CategoryMap::read(const std::filesystem::path& file) {
   return map;
 }
 
-const std::string* CategoryMap::category_of(const Listing& listing, std::uint32_t listed_class) const {
-  for (std::optional<std::uint32_t> next = listed_class; next; next = listing.classes[*next].parent) {
-    if (const auto found = category_of_class_.find(listing.classes[*next].name); found != category_of_class_.end()) {
-      return &found->second;
-    }
+// Parents come first, so that each class takes one look: a chain of classes may be as long as a file.
+std::vector<const std::string*> CategoryMap::categories_of(const std::vector<ListedClass>& classes) const {
+  std::vector<const std::string*> categories;
+  categories.reserve(classes.size());
+  for (const ListedClass& listed : classes) {
+    const auto found = category_of_class_.find(listed.name);
+    const std::string* inherited = listed.parent ? categories[*listed.parent] : nullptr;
+    categories.push_back(found != category_of_class_.end() ? &found->second : inherited);
   }
-  return nullptr;
+  return categories;
 }
 
 std::vector<std::string> CategoryMap::unknown_classes(const std::vector<Listing>& listings) const {

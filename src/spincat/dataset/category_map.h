@@ -1,7 +1,6 @@
 // Private to this folder, not installed: which classes of a source to keep, and what to call them.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -17,8 +16,9 @@ class CategoryMap {
   // class to two categories.
   static CategoryMap read(const std::filesystem::path& file);
 
-  // The category of a class by the nearest of itself and its ancestors that the map lists; nullptr where there is none.
-  const std::string* category_of(const Listing& listing, std::uint32_t listed_class) const;
+  // The category of each class, by the nearest of itself and its ancestors that the map lists; nullptr where there is
+  // none.
+  std::vector<const std::string*> categories_of(const std::vector<ListedClass>& classes) const;
 
   // The classes of the map that no source knows, sorted: most likely a spelling mistake.
   std::vector<std::string> unknown_classes(const std::vector<Listing>& listings) const;

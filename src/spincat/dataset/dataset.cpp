@@ -124,6 +124,15 @@ std::optional<std::string> why_unusable(const fs::path& file) {
   return std::nullopt;
 }
 
+std::vector<const std::string*> names_of(const std::vector<ListedClass>& classes) {
+  std::vector<const std::string*> names;
+  names.reserve(classes.size());
+  for (const ListedClass& listed : classes) {
+    names.push_back(&listed.name);
+  }
+  return names;
+}
+
 // Everything that the listings name and that is there; the rest goes to `skipped`. Takes the objects out of the
 // listings, which may name a million of them, and refers to what is left there and to the map.
 std::vector<NamedObject> gather(std::vector<Listing>& listings, const std::optional<CategoryMap>& map,
@@ -131,9 +140,10 @@ std::vector<NamedObject> gather(std::vector<Listing>& listings, const std::optio
   std::vector<NamedObject> objects;
   for (Listing& listing : listings) {
     skipped.insert(skipped.end(), listing.skipped.begin(), listing.skipped.end());
+    const std::vector<const std::string*> categories =
+        map ? map->categories_of(listing.classes) : names_of(listing.classes);
     for (ListedObject& object : listing.objects) {
-      const std::string* category =
-          map ? map->category_of(listing, object.listed_class) : &listing.classes[object.listed_class].name;
+      const std::string* category = categories[object.listed_class];
       if (category == nullptr) {
         continue;
       }
@@ -214,7 +224,7 @@ void check_enough(const Dataset& dataset) {
   }
   if (dataset.categories.size() == 1) {
     throw InputError(dataset.name,
-                     fmt::format("only one category ({}): two or more are needed", dataset.categories[0]));
+                     fmt::format("only one category ({}): two or more are needed", in_quotes(dataset.categories[0])));
   }
 }
 

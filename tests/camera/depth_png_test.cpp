@@ -31,6 +31,18 @@ TEST(DepthPng, ReadsWhatItWrote) {
   }
 }
 
+// In 1 bit or 8 these would be smaller, and other depths.
+TEST(DepthPng, WritesSixteenBitsWhateverThePixelsAre) {
+  constexpr std::size_t kPlaceOfBits = 24;
+  for (const float depth : {0.0F, 0.257F, 65.535F}) {
+    DepthImage image(3, 2);
+    image.depth.back() = depth;
+    const std::string bytes = encode_depth_png(image, 1000.0);
+    EXPECT_EQ(bytes.at(kPlaceOfBits), '\x10') << depth;
+    EXPECT_NEAR(decode_depth_png(bytes, 1000.0).depth.back(), depth, 1e-6F);
+  }
+}
+
 TEST(DepthPng, KnowsUnits) {
   const std::string bytes = encode_depth_png(small_picture(), 1000.0);
   EXPECT_NEAR(decode_depth_png(bytes, 5000.0).at(2, 1), 0.4F, 1e-6F);
@@ -76,7 +88,7 @@ TEST(DepthPng, UnpacksNoMoreThanThePictureTakes) {
             std::string::npos);
 }
 
-TEST(DepthPng, ReadsPixelsOfEveryDepthInterlacedOrNot) {
+TEST(DepthPng, ReadsPixelsOfBothDepthsInterlacedOrNot) {
   using namespace std::string_literals;
   // 1 x 1: the first of Adam7's passes has the only pixel
   for (const char interlaced : {'\0', '\1'}) {
@@ -84,8 +96,19 @@ TEST(DepthPng, ReadsPixelsOfEveryDepthInterlacedOrNot) {
                   .at(0, 0),
               513.0F);
     EXPECT_EQ(
-        decode_depth_png(test::png_file(1, 1, 1, interlaced, test::png_chunk("IDAT", packed("\0\x80"s))), 1.0).at(0, 0),
-        255.0F);
+        decode_depth_png(test::png_file(1, 1, 8, interlaced, test::png_chunk("IDAT", packed("\0\x80"s))), 1.0).at(0, 0),
+        128.0F);
+  }
+}
+
+// 1, 2 and 4 bits would be stretched to 8: a grey tone, no depth.
+TEST(DepthPng, RefusesPixelsOfFewBits) {
+  using namespace std::string_literals;
+  for (const char bits : {'\1', '\2', '\4'}) {
+    const std::string bytes = test::png_file(1, 1, bits, 0, test::png_chunk("IDAT", packed("\0\x80"s)));
+    EXPECT_EQ(input_error([&] { decode_depth_png(bytes, 1.0); }), "has pixels of "s + static_cast<char>('0' + bits) +
+                                                                      (bits == 1 ? " bit" : " bits") +
+                                                                      " where 16 or 8 bits were expected");
   }
 }
 

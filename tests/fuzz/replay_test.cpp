@@ -35,6 +35,8 @@ const std::vector<const char*> kByNature = {"make up no picture",
                                             "is no journal of a sweep",
                                             "is the journal of an older spincat",
                                             "it's no PNG or corrupted",
+                                            "smaller than a PNG header",
+                                            "illegal bit depth for this color type",
                                             "zlib header"};
 
 class Fuzzed : public testing::TestWithParam<std::string> {

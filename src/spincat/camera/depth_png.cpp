@@ -61,8 +61,13 @@ DepthImage decode_depth_png(std::string_view bytes, double units_per_metre, cons
   if (width > kMostPixels || height > kMostPixels) {
     throw InputError(fmt::format("is {} x {} pixels large (at most {} x {})", width, height, kMostPixels, kMostPixels));
   }
+  const unsigned bits = state.info_png.color.bitdepth;
+  if (bits != 8 && bits != 16) {  // as few would be stretched to 8, and are no units of anything
+    throw InputError(
+        fmt::format("has pixels of {} bit{} where 16 or 8 bits were expected", bits, bits == 1 ? "" : "s"));
+  }
   check_growth(kBytesEach * width * height, bytes.size(), limits);
-  const unsigned bytes_each = state.info_png.color.bitdepth == 16 ? 2 : 1;
+  const unsigned bytes_each = bits / 8;
   const Raw raw = decode_pixels(bytes, width, height, bytes_each);
   DepthImage image(static_cast<int>(width), static_cast<int>(height));
   for (std::size_t i = 0; i < image.depth.size(); ++i) {
@@ -78,9 +83,14 @@ std::string encode_png16(const std::vector<std::uint16_t>& values, int width, in
     raw[2 * i] = static_cast<unsigned char>(values[i] >> 8);
     raw[2 * i + 1] = static_cast<unsigned char>(values[i] & 0xFF);
   }
+  // Left to itself, lodepng writes 1 to 8 bits where those can tell the grey tones, and a unit is another one then.
+  lodepng::State state;
+  state.info_raw = lodepng_color_mode_make(LCT_GREY, 16);
+  state.info_png.color = state.info_raw;
+  state.encoder.auto_convert = 0;
   std::vector<unsigned char> bytes;
   if (const unsigned error =
-          lodepng::encode(bytes, raw, static_cast<unsigned>(width), static_cast<unsigned>(height), LCT_GREY, 16);
+          lodepng::encode(bytes, raw, static_cast<unsigned>(width), static_cast<unsigned>(height), state);
       error != 0) {
     throw RunError(fmt::format("the picture could not be made ({})", lodepng_error_text(error)));
   }

@@ -2,6 +2,7 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <ostream>
 #include <string_view>
@@ -111,6 +112,48 @@ std::string chain_gltf(std::size_t size) {
     text += R"(,{"children":[)" + std::to_string(i) + "]}";
   }
   return text + "]}";
+}
+
+// Nodes that show a mesh, and its primitives, which add nothing: half of a file may multiply the other half. As many as
+// may be kept; the rest is a name.
+std::string gltf_of_nothing(std::size_t size) {
+  const std::size_t many = size / 200;
+  std::string text = R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0})";
+  for (std::size_t i = 1; i < many; ++i) {
+    text += R"(,{"mesh":0})";
+  }
+  text += R"(],"meshes":[{"primitives":[{"attributes":{}})";
+  for (std::size_t i = 1; i < many; ++i) {
+    text += R"(,{"attributes":{}})";
+  }
+  text += R"(]}],"extras":")";
+  return text + std::string(size - std::min(size, text.size()), 'a') + "\"}";
+}
+
+// Buffers that name two files beside in turn, which are one (readers.cpp).
+std::string gltf_of_buffers(std::size_t size) {
+  std::string text = R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"buffers":[{"byteLength":4096,"uri":"a.bin"})";
+  const std::size_t many = size / 100;
+  for (std::size_t i = 0; i < many; ++i) {
+    text += i % 2 == 0 ? R"(,{"byteLength":4096,"uri":"a.bin"})" : R"(,{"byteLength":4096,"uri":"b.bin"})";
+  }
+  text += R"(],"extras":")";
+  return text + std::string(size - std::min(size, text.size()), 'a') + "\"}";
+}
+
+// Classes each below the one before, and models in the last: as many of both as may be kept.
+std::string cla_of_a_chain(std::size_t size) {
+  const std::size_t classes = size / 60;
+  const std::size_t models = size / 200;
+  std::string text = "PSB 1\n" + std::to_string(classes) + " " + std::to_string(models) + "\nc1 0 0";
+  for (std::size_t i = 2; i <= classes; ++i) {
+    text += "\nc" + std::to_string(i) + " c" + std::to_string(i - 1) + (i < classes ? " 0" : " ");
+  }
+  text += std::to_string(models);
+  for (std::size_t i = 0; i < models; ++i) {
+    text += "\n1";
+  }
+  return text + std::string(size - std::min(size, text.size()), ' ');
 }
 
 std::string cbor_array(std::size_t size, std::string_view item) {
@@ -248,6 +291,8 @@ std::vector<Hard> gltf_files() {
       {"gltf", "one large buffer", [](std::size_t size) { return repeating_gltf(size, "", ""); }},
       {"gltf", "empty nodes", [](std::size_t size) { return repeating_gltf(size, ",{}", ""); }},
       {"gltf", "a chain of nodes", chain_gltf},
+      {"gltf", "primitives of nothing", gltf_of_nothing},
+      {"gltf", "buffers of one file", gltf_of_buffers},
       repeats("gltf", "children", R"({"asset":{"version":"2.0"},"nodes":[{"children":[0)", ",0", "]}]}"),
       repeats("gltf", "numbers of no use", R"({"asset":{"version":"2.0"},"extras":[0)", ",0", "]}"),
       repeats("gltf", "lists of no use", R"({"asset":{"version":"2.0"},"extras":[0)", ",[]", "]}"),
@@ -279,6 +324,7 @@ std::vector<Hard> lists_and_records() {
          }
          return "PSB 1\n" + std::to_string(count) + " 0" + classes;
        }},
+      {"cla", "models below a chain of classes", cla_of_a_chain},
       {"model", "a list of numbers", [](std::size_t size) { return cbor_array(size, "\1"); }},
       {"model", "a list of empty lists", [](std::size_t size) { return cbor_array(size, "\x80"); }},
       {"model", "a list of empty names", [](std::size_t size) { return cbor_array(size, "\x60"); }},

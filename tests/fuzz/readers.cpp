@@ -9,9 +9,11 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
+#include <variant>
 
 #include "spincat/camera/calibration.h"
 #include "spincat/camera/depth_list.h"
@@ -35,11 +37,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A file with the given bytes, in memory where the system has a place for such files.
+// In memory where the system has a place for such files.
+fs::path folder_for_files() {
+  return fs::is_directory("/dev/shm") ? "/dev/shm" : fs::temp_directory_path();
+}
+
+// A file with the given bytes.
 class ShortFile {
  public:
   ShortFile(std::string_view bytes, std::string_view extension) {
-    static const fs::path kFolder = fs::is_directory("/dev/shm") ? "/dev/shm" : fs::temp_directory_path();
+    static const fs::path kFolder = folder_for_files();
     path_ = kFolder / ("spincat-fuzz-" + std::to_string(getpid()) + std::string(extension));
     const int descriptor = open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
     const ssize_t written = write(descriptor, bytes.data(), bytes.size());
@@ -51,6 +58,36 @@ class ShortFile {
   ~ShortFile() { unlink(path_.c_str()); }
   ShortFile(const ShortFile&) = delete;
   ShortFile& operator=(const ShortFile&) = delete;
+
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+// The files that a glTF file may name: two names of one file, an empty one, no regular one.
+class FolderBeside {
+ public:
+  FolderBeside() : path_(folder_for_files() / ("spincat-fuzz-" + std::to_string(getpid()) + "-beside")) {
+    fs::create_directories(path_);
+    std::string bytes;
+    constexpr std::size_t kBytes = 4'096;
+    for (std::uint8_t i = 0; bytes.size() < kBytes; ++i) {
+      const float value = i;
+      bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+    }
+    std::ofstream(path_ / "a.bin", std::ios::binary) << bytes;
+    std::ofstream(path_ / "none.bin", std::ios::binary);
+    std::error_code ignored;
+    fs::create_symlink("a.bin", path_ / "b.bin", ignored);
+    fs::create_directory(path_ / "folder.bin", ignored);
+  }
+  ~FolderBeside() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  FolderBeside(const FolderBeside&) = delete;
+  FolderBeside& operator=(const FolderBeside&) = delete;
 
   const fs::path& path() const { return path_; }
 
@@ -82,18 +119,55 @@ std::string with_checksum(std::string bytes) {
   return bytes.append(reinterpret_cast<const char*>(&checksum), sizeof(checksum));
 }
 
+void check(bool holds, const char* promise) {
+  if (!holds) {
+    throw std::logic_error(std::string("an object breaks a promise: ") + promise);
+  }
+}
+
+bool all_finite(const std::vector<Vec3>& points) {
+  return std::ranges::all_of(points, [](const Vec3& point) { return point.allFinite(); });
+}
+
+void check_mesh(const Mesh& mesh) {
+  check(!mesh.triangles.empty(), "a mesh has triangles");
+  check(all_finite(mesh.vertices), "vertices are finite");
+  for (const Triangle& triangle : mesh.triangles) {
+    check(std::ranges::all_of(triangle, [&](std::uint32_t corner) { return corner < mesh.vertices.size(); }),
+          "a corner is a vertex");
+  }
+}
+
+void check_cloud(const PointCloud& cloud) {
+  check(!cloud.points.empty(), "a cloud has points");
+  check(all_finite(cloud.points), "points are finite");
+  check(cloud.normals.empty() || cloud.normals.size() == cloud.points.size(), "all points have normals, or none");
+  check(!cloud.sensor || cloud.sensor->allFinite(), "a sensor is somewhere");
+}
+
+// What spincat/geometry/object.h says of an object: all that comes after a reader relies on it. Normals may be
+// anything.
+void check_object(const Object& object) {
+  if (const auto* mesh = std::get_if<Mesh>(&object)) {
+    check_mesh(*mesh);
+  } else {
+    check_cloud(std::get<PointCloud>(object));
+  }
+}
+
 template <Object (*read)(std::string_view, const ReadLimits&)>
 void read_object_file(std::string_view bytes, Refusals& refusals) {
-  attempt([&] { read(bytes, {}); }, refusals);
+  attempt([&] { check_object(read(bytes, {})); }, refusals);
 }
 
 void read_pcd(std::string_view bytes, Refusals& refusals) {
-  attempt([&] { io::read_pcd(bytes, {}); }, refusals);
+  read_object_file<io::read_pcd>(bytes, refusals);
   attempt([&] { read_organized_pcd(bytes); }, refusals);
 }
 
 void read_gltf(std::string_view bytes, Refusals& refusals) {
-  attempt([&] { io::read_gltf(bytes, "/nonexistent", {}); }, refusals);
+  static const FolderBeside kFolder;
+  attempt([&] { check_object(io::read_gltf(bytes, kFolder.path(), {})); }, refusals);
 }
 
 void read_csv(std::string_view bytes, Refusals& refusals) {
@@ -104,8 +178,10 @@ void read_csv(std::string_view bytes, Refusals& refusals) {
 
 void read_cla(std::string_view bytes, Refusals& refusals) {
   const ShortFile file(bytes, ".cla");
-  const DatasetOptions options = {.models = file.path().parent_path(), .category_map = {}};
-  attempt([&] { read_dataset({file.path()}, options); }, refusals);
+  const ShortFile map("class,category\nchair,seat\n1,a\n", ".csv");
+  const fs::path models = file.path().parent_path();
+  attempt([&] { read_dataset({file.path()}, {.models = models, .category_map = {}}); }, refusals);
+  attempt([&] { read_dataset({file.path()}, {.models = models, .category_map = map.path()}); }, refusals);
 }
 
 // The layout is that of io/record_file.h.

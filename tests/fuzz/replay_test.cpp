@@ -39,6 +39,20 @@ const std::vector<const char*> kByNature = {"make up no picture",
                                             "illegal bit depth for this color type",
                                             "zlib header"};
 
+// By these folders scripts/fuzz and CMake know the readers.
+TEST(Fuzz, EachReaderHasSeeds) {
+  std::vector<std::string> names;
+  for (const fs::path& folder : files_in(fs::path(SPINCAT_SOURCE_DIR) / "tests/fuzz/seeds")) {
+    names.push_back(folder.filename().string());
+  }
+  std::vector<std::string> readers = reader_names();
+  std::ranges::sort(readers);
+  EXPECT_EQ(names, readers);
+  for (const fs::path& folder : files_in(fs::path(SPINCAT_SOURCE_DIR) / "tests/fuzz/found")) {
+    EXPECT_TRUE(std::ranges::binary_search(readers, folder.filename().string())) << folder;
+  }
+}
+
 class Fuzzed : public testing::TestWithParam<std::string> {
  protected:
   static std::vector<fs::path> kept(const char* kind) {

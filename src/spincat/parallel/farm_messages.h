@@ -12,7 +12,7 @@
 namespace spincat::farm {
 
 // Raised whenever a message changes: ranks of different versions must not work together.
-inline constexpr std::uint32_t kProtocol = 3;
+inline constexpr std::uint32_t kProtocol = 4;
 
 enum Tag : int {
   kHello,     // to rank 0 and from it: Greeting

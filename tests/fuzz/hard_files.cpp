@@ -206,7 +206,7 @@ std::string kinect_png(const std::string& chunks) {
 
 // A picture of one depth, as large as may be read from so many bytes; most of them are of no use.
 std::string flat_png(std::size_t size) {
-  constexpr std::uint32_t kHeight = 3'000;
+  constexpr std::uint32_t kHeight = 4'000;
   const auto width = static_cast<std::uint32_t>((19 * size + 15'000'000) / 8 / kHeight);
   const std::string pixels((2 * std::size_t{width} + 1) * kHeight, '\0');
   std::string packed(compressBound(pixels.size()), '\0');

@@ -140,7 +140,7 @@ TEST_F(DamagedFiles, DamageIsToldWithItsPlace) {
        "line 3: class 'flat'"},
       {"a.cla", "PSB 1\n1 1\na 0 1\nx\n", "train a.cla --models shapes -o x.spincat",
        "line 4: expected model number 1"},
-      {"s.csv.journal", "{\"sweep\":1}\n", "sweep shapes --vary c=1,2 -o s.csv" + small,
+      {"s.csv.journal", "{\"sweep\":1} 21dcc08b\n", "sweep shapes --vary c=1,2 -o s.csv" + small,
        "is the journal of another sweep"},
       {"t.journal", "what is this", "train shapes -o x.spincat --journal t.journal" + small,
        "is no journal of spincat"},

@@ -93,7 +93,10 @@ TEST_F(ListedObjects, MustBeRegularFilesToBeDescribed) {
   const DescribeJob job{files_.size(), file, settings, 1, Division::sums, {}, {}};
   std::vector<std::string> problems;
   describe_files(farm.farm(), job,
-                 [&](std::size_t, const Described& described) { problems.push_back(described.problem); }, {});
+                 [&](std::size_t, const Described& described, std::span<const FeatureBytes>) {
+                   problems.push_back(described.problem);
+                 },
+                 {});
   EXPECT_EQ(problems, problems_);
 }
 

@@ -5,7 +5,9 @@
 
 #include <array>
 #include <fstream>
+#include <utility>
 
+#include "spincat/error.h"
 #include "spincat/parallel/process_state.h"
 
 namespace spincat::farm {
@@ -72,28 +74,38 @@ JobStart unpack_job_start(Unpacker& fields) {
   return start;
 }
 
-std::string pack(std::uint32_t job, const TaskResult& result) {
-  constexpr std::size_t kBesidesText = 64;
-  return Packer()
-      .reserve(result.file.size() + result.bytes.size() + kBesidesText)
-      .add(job)
-      .add(static_cast<std::uint64_t>(result.task))
-      .add(result.outcome)
-      .add(result.seconds)
-      .add(result.file)
-      .add(result.bytes)
-      .take();
+std::string pack(std::uint32_t job, TaskResult result) {
+  const std::string rest = Packer()
+                               .add(static_cast<std::uint64_t>(result.task))
+                               .add(result.outcome)
+                               .add(result.seconds)
+                               .add(result.file)
+                               .add(job)
+                               .take();
+  std::string bytes = std::move(result.bytes);
+  return bytes.append(rest).append(Packer().add(static_cast<std::uint64_t>(rest.size())).take());
 }
 
-TaskResult unpack_result(std::string_view bytes, std::uint32_t& job) {
-  Unpacker fields(bytes);
+TaskResult unpack_result(std::string bytes, std::uint32_t& job) {
+  const auto from_end = [&](std::uint64_t size) {
+    if (size > bytes.size()) {
+      throw RunError("a message between ranks ends early");
+    }
+    return bytes.size() - size;
+  };
+  const std::size_t length = from_end(sizeof(std::uint64_t));
+  const auto rest_size = Unpacker(std::string_view(bytes).substr(length)).get<std::uint64_t>();
+  bytes.resize(length);
+  const std::size_t begin = from_end(rest_size);
+  Unpacker fields(std::string_view(bytes).substr(begin));
   TaskResult result;
-  job = fields.get<std::uint32_t>();
   result.task = fields.get<std::uint64_t>();
   result.outcome = fields.get<TaskResult::Outcome>();
   result.seconds = fields.get<double>();
   result.file = fields.get_text();
-  result.bytes = fields.get_text();
+  job = fields.get<std::uint32_t>();
+  bytes.resize(begin);
+  result.bytes = std::move(bytes);
   return result;
 }
 

@@ -20,7 +20,7 @@ enum Tag : int {
   kReady,     // to rank 0: job, threads
   kRefusal,   // to rank 0: job, reason
   kTask,      // from rank 0: job, task, its bytes
-  kResult,    // to rank 0: job, TaskResult
+  kResult,    // to rank 0: TaskResult, job
   kBeat,      // to rank 0 and from it: still there
   kTold,      // from rank 0: job, task, the result of another rank
   kEndOfJob,  // from rank 0: job
@@ -58,7 +58,8 @@ bool has_gone(const Greeting& greeting);
 void pack_job_start(const JobStart& start, Packer& packer);
 JobStart unpack_job_start(Unpacker& fields);  // points into the bytes
 
-std::string pack(std::uint32_t job, const TaskResult& result);
-TaskResult unpack_result(std::string_view bytes, std::uint32_t& job);
+// The result's bytes come first, so that neither side copies them.
+std::string pack(std::uint32_t job, TaskResult result);
+TaskResult unpack_result(std::string bytes, std::uint32_t& job);
 
 }  // namespace spincat::farm

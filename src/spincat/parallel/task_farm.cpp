@@ -163,16 +163,16 @@ class TaskFarm::Run {
 
   bool hear() {
     bool heard = false;
-    while (const std::optional<Message> message = farm_.ranks_.receive()) {
+    while (std::optional<Message> message = farm_.ranks_.receive()) {
       heard = true;
       Rank& rank = farm_.others_[static_cast<std::size_t>(message->from) - 1];
       rank.heard();
-      act_on(rank, *message);
+      act_on(rank, *std::move(message));
     }
     return heard;
   }
 
-  void act_on(Rank& rank, const Message& message) {
+  void act_on(Rank& rank, Message message) {
     Unpacker fields(message.bytes);
     switch (message.tag) {
       case farm::kReady:
@@ -189,7 +189,7 @@ class TaskFarm::Run {
         break;
       case farm::kResult: {
         std::uint32_t job = 0;
-        TaskResult result = farm::unpack_result(message.bytes, job);
+        TaskResult result = farm::unpack_result(std::move(message.bytes), job);
         rank.busy_seconds += result.seconds;
         if (job == number_) {
           rank.tasks -= rank.tasks > 0 ? 1 : 0;

@@ -176,7 +176,7 @@ class Server {
   bool answer() {
     bool answered = false;
     while (crew_) {
-      const std::optional<TaskResult> result = crew_->take();
+      std::optional<TaskResult> result = crew_->take();
       if (!result) {
         break;
       }
@@ -184,7 +184,7 @@ class Server {
       if (result->outcome == TaskResult::Outcome::done) {
         keep(result->task, result->bytes);
       }
-      say(farm::kResult, farm::pack(job_, *result));
+      say(farm::kResult, farm::pack(job_, *std::move(result)));
     }
     return answered;
   }

@@ -1,5 +1,6 @@
 #include "spincat/pipeline/describe_tasks.h"
 
+#include <algorithm>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -45,8 +46,8 @@ Work describe_work(const Settings& settings, int views, const ReadLimits& limits
 }
 
 // Objects one after the other: rank 0 prepares, the spin points are shared out.
-void describe_by_points(TaskFarm& farm, const DescribeJob& job,
-                        const std::function<void(std::size_t, Described)>& deliver, const TaskFarm::Tick& tick) {
+void describe_by_points(TaskFarm& farm, const DescribeJob& job, const DeliverDescribed& deliver,
+                        const TaskFarm::Tick& tick) {
   std::size_t done = 0;
   const auto at_work = [&](std::size_t) {
     if (tick) {
@@ -55,10 +56,17 @@ void describe_by_points(TaskFarm& farm, const DescribeJob& job,
   };
   const EncodePrepared elsewhere = encode_on(farm, job.settings, job.division, at_work);
   for (std::size_t i = 0; i < job.files; ++i) {
-    deliver(i, described_file(job.file(i), job.views, job.limits,
-                              [&](const Object& object, int copy, StageSeconds& seconds) {
-                                return describe(object, job.settings, copy, &seconds, elsewhere);
-                              }));
+    Described one =
+        described_file(job.file(i), job.views, job.limits, [&](const Object& object, int copy, StageSeconds& seconds) {
+          return describe(object, job.settings, copy, &seconds, elsewhere);
+        });
+    std::vector<std::vector<float>> numbers;
+    std::vector<FeatureBytes> values;
+    for (FeatureVector& features : one.features) {
+      numbers.push_back(std::exchange(features.values, {}));
+      values.emplace_back(std::span<const float>(numbers.back()));
+    }
+    deliver(i, one, values);
     ++done;
     at_work(0);
   }
@@ -89,7 +97,13 @@ Described describe_object(const std::function<Object()>& read, int rows, const D
 }
 
 std::string pack(const Described& described) {
+  constexpr std::size_t kBesidesValues = 200;  // of a feature vector with a few blocks
+  std::size_t size = described.problem.size() + kBesidesValues;
+  for (const FeatureVector& features : described.features) {
+    size += features.values.size() * sizeof(float) + kBesidesValues;
+  }
   Packer packer;
+  packer.reserve(size);
   packer.add(std::string_view(described.problem)).add(described.kind);
   pack_seconds(packer, described.seconds);
   for (const FeatureVector& features : described.features) {
@@ -98,14 +112,26 @@ std::string pack(const Described& described) {
   return packer.take();
 }
 
-Described unpack_described(std::string_view bytes) {
+PackedDescribed look_at_described(std::string_view bytes) {
   Unpacker fields(bytes);
-  Described described;
-  described.problem = fields.get_text();
-  described.kind = fields.get<ObjectKind>();
-  described.seconds = unpack_seconds(fields);
+  PackedDescribed described;
+  described.head.problem = fields.get_text();
+  described.head.kind = fields.get<ObjectKind>();
+  described.head.seconds = unpack_seconds(fields);
   while (!fields.empty()) {
-    described.features.push_back(unpack_features(fields));
+    auto [head, values] = look_at_features(fields);
+    described.head.features.push_back(std::move(head));
+    described.values.push_back(values);
+  }
+  return described;
+}
+
+Described unpack_described(std::string_view bytes) {
+  auto [described, values] = look_at_described(bytes);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    std::vector<float>& numbers = described.features[i].values;
+    numbers.resize(values[i].length());
+    std::ranges::copy(values[i].bytes, reinterpret_cast<char*>(numbers.data()));
   }
   return described;
 }
@@ -133,17 +159,16 @@ RankWork make_describe_work(std::string_view context, KeptData& kept) {
     kept = {};
     kept.rows.emplace(rows_to_keep, static_cast<std::size_t>(views));
     result.keep = [&kept](std::size_t task, std::string_view described) {
-      const Described object = unpack_described(described);
-      if (!object.features.empty()) {
-        kept.rows->put(task, object.features);
+      const std::vector<FeatureBytes> values = look_at_described(described).values;
+      if (!values.empty()) {
+        kept.rows->put(task, values);
       }
     };
   }
   return result;
 }
 
-void describe_files(TaskFarm& farm, const DescribeJob& job,
-                    const std::function<void(std::size_t i, Described described)>& deliver,
+void describe_files(TaskFarm& farm, const DescribeJob& job, const DeliverDescribed& deliver,
                     const TaskFarm::Tick& tick) {
   if (shares_out_points(job.settings, job.division)) {
     describe_by_points(farm, job, deliver, tick);
@@ -158,18 +183,21 @@ void describe_files(TaskFarm& farm, const DescribeJob& job,
   };
   if (job.keeps_rows) {
     tasks.tells_all = [&](std::string_view result) -> std::optional<bool> {
-      const Described described = unpack_described(result);
-      if (described.features.empty()) {
+      const std::vector<FeatureBytes> values = look_at_described(result).values;
+      if (values.empty()) {
         return std::nullopt;
       }
-      return job.keeps_rows(described.features[0].values.size());
+      return job.keeps_rows(values[0].length());
     };
   }
   tasks.work = describe_work(job.settings, job.views, job.limits);
   tasks.is_worth_keeping = has_no_problem;
   tasks.tasks = job.files;
   tasks.task = [&](std::size_t i) { return job.file(i).string(); };
-  tasks.deliver = [&](std::size_t i, const std::string& result) { deliver(i, unpack_described(result)); };
+  tasks.deliver = [&](std::size_t i, const std::string& result) {
+    const PackedDescribed described = look_at_described(result);
+    deliver(i, described.head, described.values);
+  };
   farm.run(tasks, tick);
 }
 

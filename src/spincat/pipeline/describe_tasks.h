@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "spincat/pipeline/describe.h"
 #include "spincat/pipeline/kinds.h"
 #include "spincat/pipeline/settings.h"
+#include "spincat/pipeline/table_rows.h"
 
 namespace spincat {
 
@@ -40,6 +42,13 @@ Described describe_object(const std::function<Object()>& read, int rows, const D
 std::string pack(const Described& described);
 Described unpack_described(std::string_view bytes);
 
+// The same, but for the numbers of the feature vectors, which stay in `bytes`: those of `head` are empty.
+struct PackedDescribed {
+  Described head;
+  std::vector<FeatureBytes> values;
+};
+PackedDescribed look_at_described(std::string_view bytes);
+
 // Which files, and how.
 struct DescribeJob {
   std::size_t files = 0;
@@ -56,9 +65,12 @@ struct DescribeJob {
 // Reads and describes every file and hands the results on in order, on the calling thread. Many objects with few spin
 // points are shared out object by object; those with many spin points, or all of them where the division is `images`,
 // one after the other by their spin points. The results are the same for any number of threads and ranks and for both
-// divisions; the seconds are not. `tick` gets the number of files that are done.
-void describe_files(TaskFarm& farm, const DescribeJob& job,
-                    const std::function<void(std::size_t i, Described described)>& deliver, const TaskFarm::Tick& tick);
+// divisions; the seconds are not. The numbers of the feature vectors are only there while they are delivered, and only
+// in `values`. `tick` gets the number of files that are done.
+using DeliverDescribed =
+    std::function<void(std::size_t i, const Described& described, std::span<const FeatureBytes> values)>;
+void describe_files(TaskFarm& farm, const DescribeJob& job, const DeliverDescribed& deliver,
+                    const TaskFarm::Tick& tick);
 
 // Whether objects are dealt with one after the other, each shared out by its spin points: where they have many, or
 // where the division asks for it.

@@ -38,11 +38,6 @@ void leave_out_shorter(const Dataset& dataset, bool strict, std::size_t length, 
   }
 }
 
-std::size_t length_of_shortest(std::span<const FeatureVector> features) {
-  const auto length = [](const FeatureVector& vector) { return vector.values.size(); };
-  return length(std::ranges::min(features, {}, length));
-}
-
 // Throws when the objects that are left can teach nothing.
 void check_categories(const FeatureTable& table, const std::string& dataset) {
   if (table.categories.size() < 2) {
@@ -160,18 +155,15 @@ FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, 
         pays_to_share({objects.size(), objects.size() * rows_each, length, dataset.categories.size()}, plan, farm);
     return all_ranks_keep;
   };
-  const auto keep = [&](std::size_t i, Described one) {
-    if (strict && one.features.empty()) {
+  const auto keep = [&](std::size_t i, const Described& one, std::span<const FeatureBytes> values) {
+    if (strict && values.empty()) {
       throw InputError(dataset.objects[i].file.string(), one.problem);
     }
-    if (!one.features.empty()) {
-      rows.put(i, one.features);
-      objects[i].shortest = length_of_shortest(one.features);
+    if (!values.empty()) {
+      rows.put(i, values);
+      objects[i].shortest = std::ranges::min(values, {}, &FeatureBytes::length).length();
     }
-    for (FeatureVector& features : one.features) {
-      features.values = {};
-    }
-    objects[i].described = std::move(one);
+    objects[i].described = one;
   };
   describe_files(farm, job, keep, [&](std::size_t done) {
     if (progress) {

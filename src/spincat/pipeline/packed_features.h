@@ -7,6 +7,7 @@
 #include "spincat/encode/feature_vector.h"
 #include "spincat/parallel/packing.h"
 #include "spincat/pipeline/describe.h"
+#include "spincat/pipeline/table_rows.h"
 
 namespace spincat {
 
@@ -16,12 +17,17 @@ inline void pack_features(Packer& packer, const FeatureVector& features) {
   packer.add(std::string_view(encoding)).add(local_size);
 }
 
-inline FeatureVector unpack_features(Unpacker& fields) {
-  FeatureVector features;
-  features.values = fields.get_values<float>();
-  features.blocks = fields.get_values<std::uint32_t>();
-  features.encoding = fields.get_text();
-  features.local_size = fields.get<std::uint32_t>();
+// A packed feature vector, but for the numbers, which stay where they are: `head` has no values.
+struct PackedFeatures {
+  FeatureVector head;
+  FeatureBytes values;
+};
+
+inline PackedFeatures look_at_features(Unpacker& fields) {
+  PackedFeatures features{{}, FeatureBytes(fields.get_text())};
+  features.head.blocks = fields.get_values<std::uint32_t>();
+  features.head.encoding = fields.get_text();
+  features.head.local_size = fields.get<std::uint32_t>();
   return features;
 }
 

@@ -8,22 +8,22 @@
 
 namespace spincat {
 
-void TableRows::put(std::size_t object, std::span<const FeatureVector> features) {
+void TableRows::put(std::size_t object, std::span<const FeatureBytes> features) {
   if (object >= is_there_.size() || features.size() != rows_each_) {
     throw RunError("an object came with another number of feature vectors");
   }
-  const auto size = [](const FeatureVector& vector) { return vector.values.size(); };
-  const auto [shortest, longest] = std::ranges::minmax(features, {}, size);
-  if (size(longest) > length()) {  // then all that came before are too short
+  const auto [shortest, longest] = std::ranges::minmax(features, {}, &FeatureBytes::length);
+  if (longest.length() > length()) {  // then all that came before are too short
     features_.resize(static_cast<Eigen::Index>(is_there_.size() * rows_each_),
-                     static_cast<Eigen::Index>(size(longest)));
+                     static_cast<Eigen::Index>(longest.length()));
     is_there_.assign(is_there_.size(), false);
   }
-  if (size(shortest) < length()) {
+  if (shortest.length() < length()) {
     return;
   }
   for (std::size_t i = 0; i < rows_each_; ++i) {
-    std::ranges::copy(features[i].values, features_.row(static_cast<Eigen::Index>(object * rows_each_ + i)).data());
+    std::memcpy(features_.row(static_cast<Eigen::Index>(object * rows_each_ + i)).data(), features[i].bytes.data(),
+                features[i].bytes.size());
   }
   is_there_[object] = true;
 }

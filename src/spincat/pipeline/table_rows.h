@@ -4,12 +4,22 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
-#include "spincat/encode/feature_vector.h"
 #include "spincat/judge/gram.h"
 
 namespace spincat {
+
+// The numbers of a feature vector where they are: as bytes, since packed ones lie anywhere.
+struct FeatureBytes {
+  std::string_view bytes;
+
+  explicit FeatureBytes(std::string_view packed) : bytes(packed) {}
+  explicit FeatureBytes(std::span<const float> values)
+      : bytes(reinterpret_cast<const char*>(values.data()), values.size_bytes()) {}
+  std::size_t length() const { return bytes.size() / sizeof(float); }
+};
 
 // Takes the feature vectors of objects, in any order, straight into the matrix that becomes the table's: there is never
 // a second copy of them. Every rank that needs the table fills one.
@@ -22,10 +32,10 @@ class TableRows {
   std::size_t length() const { return static_cast<std::size_t>(features_.cols()); }
 
   // Throws RunError for an object or a number of vectors that cannot be.
-  void put(std::size_t object, std::span<const FeatureVector> features);
+  void put(std::size_t object, std::span<const FeatureBytes> features);
 
-  // The rows of the given objects, one object after the other. This is empty afterwards. Precondition: ascending. Throws
-  // RunError when one of them has not come.
+  // The rows of the given objects, one object after the other. This is empty afterwards. Precondition: ascending.
+  // Throws RunError when one of them has not come.
   FeatureMatrix take(std::span<const std::uint32_t> objects);
 
  private:

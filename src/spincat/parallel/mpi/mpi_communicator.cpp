@@ -27,6 +27,7 @@ namespace spincat {
 namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 20;
+constexpr std::size_t kShort = std::size_t{1} << 14;  // a message that is sent with its length, as one piece
 constexpr std::size_t kHead = sizeof(std::uint64_t);  // of a message's first piece: the length of the whole
 // MPICH 4.0 hangs at its end over TCP where a rank still answers another that has come there first (pmodels/mpich, pull
 // request 6596); see below.
@@ -261,10 +262,11 @@ class MpiCommunicator final : public Communicator {
     }
   }
 
-  // Not before it is sent: many ranks may wait for the same bytes.
+  // Not before it is sent: many ranks may wait for the same bytes. Those of a long message are sent from where they
+  // are.
   static void pack_first(Outgoing& message) {
     const std::uint64_t length = message.bytes->size();
-    const std::size_t in_first = std::min(message.bytes->size(), kPiece - kHead);
+    const std::size_t in_first = length <= kShort ? message.bytes->size() : 0;
     message.first.resize(kHead + in_first);
     std::memcpy(message.first.data(), &length, kHead);
     std::memcpy(message.first.data() + kHead, message.bytes->data(), in_first);
@@ -339,7 +341,7 @@ class MpiCommunicator final : public Communicator {
         cut_off(from);
         break;
       }
-      const IncomingPiece piece = std::move(box.under_way.front());
+      IncomingPiece piece = std::move(box.under_way.front());
       box.under_way.pop_front();
       box.heard = Clock::now();
       try {
@@ -358,18 +360,26 @@ class MpiCommunicator final : public Communicator {
     return std::nullopt;
   }
 
-  void add(const IncomingPiece& piece, int from, InBox& box) {
+  void add(IncomingPiece& piece, int from, InBox& box) {
     if (box.in_message) {
-      box.message.bytes += piece.bytes;
+      append(std::move(piece.bytes), box);
     } else if (piece.bytes.size() < kHead) {
       cut_off(from);
     } else {
       std::memcpy(&box.length, piece.bytes.data(), kHead);
-      box.message = {from, piece.tag, {}};
-      box.message.bytes.reserve(box.length);
-      box.message.bytes.append(piece.bytes, kHead);
+      box.message = {from, piece.tag, piece.bytes.substr(kHead)};
     }
     box.in_message = box.message.bytes.size() < box.length;
+  }
+
+  // A piece that is the whole message need not be copied.
+  static void append(std::string bytes, InBox& box) {
+    if (bytes.size() == box.length) {
+      box.message.bytes = std::move(bytes);
+    } else {
+      box.message.bytes.reserve(box.length);
+      box.message.bytes += bytes;
+    }
   }
 
   int rank_ = 0;

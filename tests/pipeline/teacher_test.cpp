@@ -160,12 +160,11 @@ TEST(Teaching, RanksUseTheRowsTheyKept) {
   EXPECT_THROW(make_gram_work(gram_context(), kept), RunError);
   kept.rows.emplace(60, 2);
   for (std::uint32_t i = 0; i < 30; ++i) {
-    std::vector<FeatureVector> features(2);
+    std::vector<FeatureBytes> values;
     for (std::uint32_t copy = 0; copy < 2; ++copy) {
-      const auto row = table.features.row(2 * i + copy);
-      features[copy].values.assign(row.data(), row.data() + row.size());
+      values.emplace_back(table.features_of(i, copy));
     }
-    kept.rows->put(table.described_as[i], features);
+    kept.rows->put(table.described_as[i], values);
   }
   make_table_work(table_context(table), kept);
   EXPECT_EQ(kept.data.table.features, table.features);

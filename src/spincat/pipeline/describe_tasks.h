@@ -16,9 +16,9 @@
 #include "spincat/parallel/task_farm.h"
 #include "spincat/pipeline/dense_object.h"
 #include "spincat/pipeline/describe.h"
+#include "spincat/pipeline/feature_bytes.h"
 #include "spincat/pipeline/kinds.h"
 #include "spincat/pipeline/settings.h"
-#include "spincat/pipeline/table_rows.h"
 
 namespace spincat {
 

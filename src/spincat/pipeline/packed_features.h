@@ -7,7 +7,7 @@
 #include "spincat/encode/feature_vector.h"
 #include "spincat/parallel/packing.h"
 #include "spincat/pipeline/describe.h"
-#include "spincat/pipeline/table_rows.h"
+#include "spincat/pipeline/feature_bytes.h"
 
 namespace spincat {
 

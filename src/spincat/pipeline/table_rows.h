@@ -4,22 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "spincat/judge/gram.h"
+#include "spincat/pipeline/feature_bytes.h"
 
 namespace spincat {
-
-// The numbers of a feature vector where they are: as bytes, since packed ones lie anywhere.
-struct FeatureBytes {
-  std::string_view bytes;
-
-  explicit FeatureBytes(std::string_view packed) : bytes(packed) {}
-  explicit FeatureBytes(std::span<const float> values)
-      : bytes(reinterpret_cast<const char*>(values.data()), values.size_bytes()) {}
-  std::size_t length() const { return bytes.size() / sizeof(float); }
-};
 
 // Takes the feature vectors of objects, in any order, straight into the matrix that becomes the table's: there is never
 // a second copy of them. Every rank that needs the table fills one.

@@ -34,6 +34,24 @@ TEST(DescribeObject, GivesEveryRow) {
   EXPECT_EQ(described.problem, "");
 }
 
+// A journal is a file: whatever it holds must not be copied beyond a row.
+TEST(Described, PassesThroughBytesAndNoOthersDo) {
+  Described described;
+  described.features = {{{1.0F, 2.0F, 3.0F}, {1, 2}, "encoding", 0}, {{4.0F}, {1}, "encoding", 5}};
+  const std::string bytes = pack(described);
+  const Described back = unpack_described(bytes);
+  ASSERT_EQ(back.features.size(), 2U);
+  EXPECT_EQ(back.features[0].values, described.features[0].values);
+  EXPECT_EQ(back.features[0].blocks, described.features[0].blocks);
+  EXPECT_EQ(back.features[1].values, described.features[1].values);
+  EXPECT_EQ(back.features[1].local_size, 5U);
+  EXPECT_TRUE(look_at_described(bytes).head.features[0].values.empty());
+  const std::string twelve("\x0C\0\0\0\0\0\0\0", 8);  // bytes of three numbers
+  std::string half = bytes;
+  half.replace(half.find(twelve), 8, std::string("\x0B\0\0\0\0\0\0\0", 8));
+  EXPECT_THROW(look_at_described(half), RunError);
+}
+
 TEST(DescribeObject, MakesAProblemOfWhatTheObjectIsToBlameFor) {
   const auto unread = [](const auto& error) {
     return describe_object([&]() -> Object { throw error; }, 2, one_number).problem;

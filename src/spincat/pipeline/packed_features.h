@@ -3,8 +3,11 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "spincat/encode/feature_vector.h"
+#include "spincat/error.h"
 #include "spincat/parallel/packing.h"
 #include "spincat/pipeline/describe.h"
 #include "spincat/pipeline/feature_bytes.h"
@@ -24,7 +27,11 @@ struct PackedFeatures {
 };
 
 inline PackedFeatures look_at_features(Unpacker& fields) {
-  PackedFeatures features{{}, FeatureBytes(fields.get_text())};
+  const std::string_view numbers = fields.get_text();
+  if (numbers.size() % sizeof(float) != 0) {
+    throw RunError("a message between ranks holds half a number");
+  }
+  PackedFeatures features{{}, FeatureBytes(numbers)};
   features.head.blocks = fields.get_values<std::uint32_t>();
   features.head.encoding = fields.get_text();
   features.head.local_size = fields.get<std::uint32_t>();

@@ -101,7 +101,7 @@ TEST_P(BrokenLinks, WithoutMemoryTheResultIsRightOrThereIsNone) {
       }
       ++request;
     }
-    EXPECT_GT(request, 2) << "rank " << rank << " asks for little";
+    EXPECT_GT(request, 1) << "rank " << rank << " asks for nothing";  // rank 1 for the images of its task alone
   }
 }
 

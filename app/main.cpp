@@ -18,18 +18,18 @@
 #include <utility>
 #include <vector>
 
-#include "command_line.h"
-#include "commands.h"
-#include "help_format.h"
-#include "interrupt.h"
-#include "messages.h"
-#include "mpi_watch.h"
-#include "ranks.h"
+#include "app/commands/commands.h"
+#include "app/ranks/mpi_watch.h"
+#include "app/ranks/ranks.h"
+#include "app/terminal/command_line.h"
+#include "app/terminal/help_format.h"
+#include "app/terminal/interrupt.h"
+#include "app/terminal/messages.h"
 #include "spincat/error.h"
 #include "spincat/parallel/placement.h"
 #include "spincat/parallel/task_farm.h"
 #include "spincat/parallel/task_server.h"
-#include "spincat/pipeline/task_kinds.h"
+#include "spincat/rank_work.h"
 
 namespace {
 
@@ -132,7 +132,7 @@ int work_for_rank0(Communicator& ranks, const Launch& launch) {
   rules.keep_going = stop_if_interrupted;
   rules.leaves_silent_rank0 = launch.outlives_ranks;
   try {
-    if (serve(ranks, pipeline_work(), rules) == ServiceEnd::abandoned) {
+    if (serve(ranks, rank_work(), rules) == ServiceEnd::abandoned) {
       leave_abandoned(launch);
     }
     return 0;

@@ -1,4 +1,4 @@
-#include "options.h"
+#include "app/options.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,12 +6,12 @@
 #include <charconv>
 #include <string_view>
 
-#include "messages.h"
+#include "app/terminal/messages.h"
 #include "spincat/encode/encoding.h"
 #include "spincat/error.h"
-#include "spincat/io/file.h"
+#include "spincat/files/file.h"
 #include "spincat/parallel/for_each.h"
-#include "spincat/pipeline/setting_names.h"
+#include "spincat/settings/setting_names.h"
 
 namespace spincat::app {
 namespace {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "spincat/dataset/dataset.h"
+#include "spincat/describe/division.h"
 #include "spincat/io/read_limits.h"
-#include "spincat/pipeline/division.h"
-#include "spincat/pipeline/settings.h"
+#include "spincat/settings/settings.h"
 
 namespace spincat::app {
 

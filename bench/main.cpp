@@ -1,4 +1,5 @@
-// spincat_bench: how fast this build is on this machine, as JSON on standard output; scripts/bench makes a table of it.
+// spincat_bench: how fast this build is on this machine, as JSON on standard output; experiments/bench makes a table of
+// it.
 #include <malloc.h>
 
 #include <CLI/CLI.hpp>

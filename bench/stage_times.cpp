@@ -5,10 +5,10 @@
 
 #include "harness.h"
 #include "sections.h"
+#include "spincat/describe/describe.h"
 #include "spincat/geometry/random.h"
 #include "spincat/io/read_object.h"
 #include "spincat/judge/judge_list.h"
-#include "spincat/pipeline/describe.h"
 
 namespace spincat::bench {
 namespace {

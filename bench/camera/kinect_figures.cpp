@@ -9,10 +9,10 @@
 
 #include "figures.h"
 #include "scenes.h"
-#include "spincat/camera/calibration.h"
-#include "spincat/camera/depth_png.h"
-#include "spincat/io/file.h"
-#include "spincat/pipeline/recogniser.h"
+#include "spincat/camera/source/calibration.h"
+#include "spincat/camera/source/depth_png.h"
+#include "spincat/classify/recogniser.h"
+#include "spincat/files/file.h"
 
 namespace spincat::bench {
 namespace {

@@ -6,11 +6,11 @@
 
 #include "figures.h"
 #include "scenes.h"
-#include "spincat/camera/sensor_noise.h"
+#include "spincat/camera/render/sensor_noise.h"
+#include "spincat/classify/recogniser.h"
 #include "spincat/dataset/splits.h"
-#include "spincat/pipeline/rates.h"
-#include "spincat/pipeline/recogniser.h"
-#include "spincat/pipeline/train.h"
+#include "spincat/evaluate/rates.h"
+#include "spincat/train/train.h"
 
 namespace spincat::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "spincat/io/read_object.h"
-#include "spincat/pipeline/train.h"
+#include "spincat/train/train.h"
 
 namespace spincat::bench {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "figures.h"
-#include "spincat/camera/table_scene.h"
-#include "spincat/pipeline/model.h"
+#include "spincat/camera/render/table_scene.h"
+#include "spincat/classify/model.h"
 
 namespace spincat::bench {
 

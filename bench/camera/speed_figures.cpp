@@ -2,10 +2,10 @@
 
 #include "figures.h"
 #include "scenes.h"
-#include "spincat/camera/depth_png.h"
-#include "spincat/camera/sensor_noise.h"
-#include "spincat/pipeline/recogniser.h"
-#include "spincat/pipeline/stopwatch.h"
+#include "spincat/camera/render/sensor_noise.h"
+#include "spincat/camera/source/depth_png.h"
+#include "spincat/classify/recogniser.h"
+#include "spincat/describe/stopwatch.h"
 #include "spincat/report/time_histogram.h"
 
 namespace spincat::bench {

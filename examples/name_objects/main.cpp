@@ -3,8 +3,8 @@
 #include <exception>
 #include <string>
 
+#include "spincat/classify/classify.h"
 #include "spincat/error.h"
-#include "spincat/pipeline/classify.h"
 
 namespace {
 

@@ -15,21 +15,21 @@
 #include <utility>
 #include <variant>
 
-#include "spincat/camera/calibration.h"
-#include "spincat/camera/depth_list.h"
-#include "spincat/camera/depth_png.h"
+#include "spincat/camera/source/calibration.h"
+#include "spincat/camera/source/depth_list.h"
+#include "spincat/camera/source/depth_png.h"
+#include "spincat/classify/model.h"
 #include "spincat/dataset/category_map.h"
 #include "spincat/dataset/dataset.h"
 #include "spincat/error.h"
-#include "spincat/io/formats.h"
-#include "spincat/io/magic.h"
+#include "spincat/evaluate/sweep_journal.h"
+#include "spincat/files/magic.h"
+#include "spincat/io/formats/formats.h"
 #include "spincat/io/organized_cloud.h"
 #include "spincat/parallel/journal.h"
 #include "spincat/parallel/packing.h"
-#include "spincat/pipeline/model.h"
-#include "spincat/pipeline/named_settings.h"
-#include "spincat/pipeline/settings_json.h"
-#include "spincat/pipeline/sweep_journal.h"
+#include "spincat/settings/named_settings.h"
+#include "spincat/settings/settings_json.h"
 #include "support/png_bytes.h"
 
 namespace spincat::test {
@@ -184,7 +184,7 @@ void read_cla(std::string_view bytes, Refusals& refusals) {
   attempt([&] { read_dataset({file.path()}, {.models = models, .category_map = map.path()}); }, refusals);
 }
 
-// The layout is that of io/record_file.h.
+// The layout is that of files/record_file.h.
 std::string as_model(std::string_view content) {
   const std::string_view kind = "model";
   std::string bytes(kFileMagic);

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "spincat/pipeline/settings_json.h"
 #include "spincat/report/json.h"
+#include "spincat/settings/settings_json.h"
 
 namespace spincat {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "spincat/pipeline/settings_json.h"
+#include "spincat/settings/settings_json.h"
 
 namespace spincat {
 namespace {

@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "spincat/pipeline/train.h"
 #include "spincat/report/base64.h"
 #include "spincat/report/evidence_json.h"
 #include "spincat/report/json.h"
 #include "spincat/report/shape_json.h"
+#include "spincat/train/train.h"
 #include "support/shapes.h"
 #include "support/temp_dir.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "spincat/io/file.h"
-#include "spincat/io/record_file.h"
+#include "spincat/files/file.h"
+#include "spincat/files/record_file.h"
 #include "support/temp_dir.h"
 
 namespace spincat::test {

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "spincat/camera/render.h"
-#include "spincat/camera/table.h"
-#include "spincat/camera/viewpoint.h"
+#include "spincat/camera/render/render.h"
+#include "spincat/camera/render/viewpoint.h"
+#include "spincat/camera/segment/table.h"
 #include "support/shapes.h"
 
 namespace spincat::test {

@@ -20,7 +20,7 @@
 #include "spincat/dataset/listing.h"
 #include "spincat/dataset/words.h"
 #include "spincat/error.h"
-#include "spincat/io/file.h"
+#include "spincat/files/file.h"
 
 namespace spincat {
 namespace {

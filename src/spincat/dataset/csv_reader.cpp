@@ -8,7 +8,7 @@
 
 #include "spincat/dataset/words.h"
 #include "spincat/error.h"
-#include "spincat/io/file.h"
+#include "spincat/files/file.h"
 
 namespace spincat {
 namespace {

@@ -15,11 +15,11 @@
 #include <vector>
 
 #include "spincat/error.h"
+#include "spincat/files/file.h"
+#include "spincat/files/magic.h"
+#include "spincat/files/system_words.h"
 #include "spincat/geometry/object.h"
-#include "spincat/io/file.h"
-#include "spincat/io/formats.h"
-#include "spincat/io/magic.h"
-#include "spincat/io/system_words.h"
+#include "spincat/io/formats/formats.h"
 
 namespace spincat {
 namespace {

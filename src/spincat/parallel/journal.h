@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "spincat/io/locked_file.h"
+#include "spincat/files/locked_file.h"
 
 namespace spincat {
 

@@ -13,9 +13,9 @@
 #include "spincat/error.h"
 #include "spincat/parallel/farm_messages.h"
 #include "spincat/parallel/farm_ranks.h"
+#include "spincat/parallel/heartbeat.h"
 #include "spincat/parallel/packing.h"
 #include "spincat/parallel/pause.h"
-#include "spincat/parallel/pulse.h"
 #include "spincat/parallel/task_board.h"
 #include "spincat/parallel/thread_crew.h"
 

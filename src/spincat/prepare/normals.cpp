@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <numeric>
 
-#include "spincat/prepare/point_tree.h"
+#include "spincat/geometry/point_tree.h"
 #include "spincat/prepare/repeats.h"
 
 namespace spincat {

@@ -9,8 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "spincat/geometry/point_tree.h"
 #include "spincat/prepare/normalise.h"
-#include "spincat/prepare/point_tree.h"
 #include "spincat/prepare/repeats.h"
 #include "spincat/prepare/surface_samples.h"
 

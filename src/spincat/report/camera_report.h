@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "spincat/pipeline/recogniser.h"
+#include "spincat/classify/recogniser.h"
 #include "spincat/report/time_histogram.h"
 
 namespace spincat {

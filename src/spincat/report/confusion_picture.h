@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "spincat/pipeline/evaluate.h"
+#include "spincat/evaluate/evaluate.h"
 
 namespace spincat {
 

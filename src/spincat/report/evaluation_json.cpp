@@ -1,9 +1,9 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "spincat/pipeline/settings_json.h"
 #include "spincat/report/json.h"
 #include "spincat/report/json_parts.h"
+#include "spincat/settings/settings_json.h"
 
 namespace spincat {
 namespace {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "spincat/pipeline/setting_names.h"
 #include "spincat/report/shape_json.h"
+#include "spincat/settings/setting_names.h"
 #include "spincat/spin/spin_images.h"
 
 namespace spincat {

@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
+#include "spincat/classify/evidence.h"
 #include "spincat/judge/ballot.h"
-#include "spincat/pipeline/evidence.h"
 #include "spincat/report/json_parts.h"
 
 namespace spincat {

@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "spincat/pipeline/settings_json.h"
 #include "spincat/report/json_parts.h"
+#include "spincat/settings/settings_json.h"
 
 namespace spincat {
 namespace {

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "spincat/pipeline/classify.h"
-#include "spincat/pipeline/evaluate.h"
-#include "spincat/pipeline/model.h"
-#include "spincat/pipeline/train.h"
+#include "spincat/classify/classify.h"
+#include "spincat/classify/model.h"
+#include "spincat/evaluate/evaluate.h"
 #include "spincat/prepare/facts.h"
 #include "spincat/prepare/prepare.h"
 #include "spincat/spin/params.h"
+#include "spincat/train/train.h"
 
 namespace spincat {
 

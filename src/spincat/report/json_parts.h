@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "spincat/dataset/dataset.h"
-#include "spincat/pipeline/describe.h"
+#include "spincat/describe/describe.h"
 
 namespace spincat {
 

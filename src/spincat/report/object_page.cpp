@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "spincat/pipeline/settings_json.h"
 #include "spincat/prepare/defects.h"
 #include "spincat/report/embedded.h"
 #include "spincat/report/evidence_json.h"
 #include "spincat/report/json.h"
 #include "spincat/report/page_parts.h"
 #include "spincat/report/shape_json.h"
+#include "spincat/settings/settings_json.h"
 
 namespace spincat {
 namespace {

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "spincat/classify/classify.h"
+#include "spincat/classify/evidence.h"
+#include "spincat/classify/model.h"
+#include "spincat/describe/describe.h"
 #include "spincat/geometry/object.h"
-#include "spincat/pipeline/classify.h"
-#include "spincat/pipeline/describe.h"
-#include "spincat/pipeline/evidence.h"
-#include "spincat/pipeline/model.h"
-#include "spincat/pipeline/settings.h"
 #include "spincat/prepare/facts.h"
+#include "spincat/settings/settings.h"
 
 namespace spincat {
 

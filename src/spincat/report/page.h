@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "spincat/pipeline/evaluate.h"
-#include "spincat/pipeline/settings.h"
-#include "spincat/pipeline/sweep.h"
+#include "spincat/evaluate/evaluate.h"
+#include "spincat/evaluate/sweep.h"
+#include "spincat/settings/settings.h"
 
 namespace spincat {
 

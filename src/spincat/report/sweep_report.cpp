@@ -4,10 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "spincat/pipeline/settings_json.h"
 #include "spincat/report/json_parts.h"
 #include "spincat/report/text.h"
 #include "spincat/report/text_table.h"
+#include "spincat/settings/settings_json.h"
 
 namespace spincat {
 namespace {

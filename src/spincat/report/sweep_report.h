@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "spincat/pipeline/sweep.h"
+#include "spincat/evaluate/sweep.h"
 
 namespace spincat {
 

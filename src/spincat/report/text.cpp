@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "spincat/pipeline/setting_names.h"
 #include "spincat/report/text_table.h"
+#include "spincat/settings/setting_names.h"
 
 namespace spincat {
 

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
+#include "spincat/classify/model.h"
+#include "spincat/evaluate/evaluate.h"
 #include "spincat/judge/ballot.h"
-#include "spincat/pipeline/evaluate.h"
-#include "spincat/pipeline/model.h"
 #include "spincat/prepare/facts.h"
 
 namespace spincat {

@@ -65,7 +65,7 @@ def check_sweep(browser, program, data, scratch):
 
 
 def check_scaling(browser, _program, _data, scratch):
-    """The page of scripts/scaling, which no command writes."""
+    """The page of experiments/scaling, which no command writes."""
     samples = [[1000, 1, 1, 8.0], [1000, 1, 2, 4.2], [1000, 2, 1, 4.4], [2000, 1, 1, 32.0], [2000, 1, 2, 16.5], [2000, 2, 1, 16.0]]
     model = {"constant": 0.1, "per_unit": 0.0, "per_work": 7.97e-6, "launch": 0.25, "per_byte": 0.0, "largest_error": 0.04}
     predicted = [[2 ** k, max(1, 2 ** k // 16), 0.1 + 32 / 2 ** k] for k in range(11)]

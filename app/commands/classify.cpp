@@ -1,0 +1,213 @@
+#include "spincat/classify/classify.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/commands/classify_report.h"
+#include "app/commands/commands.h"
+#include "app/options.h"
+#include "app/ranks/farm_run.h"
+#include "app/terminal/answer_printer.h"
+#include "app/terminal/messages.h"
+#include "app/terminal/progress_bar.h"
+#include "spincat/classify/classify_tasks.h"
+#include "spincat/dataset/object_files.h"
+#include "spincat/error.h"
+
+namespace spincat::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ClassifyArguments {
+  fs::path model;
+  std::vector<fs::path> inputs;
+  AnswerLook look;
+  fs::path report;
+  ReadLimits limits;
+  RunOptions run;
+};
+
+// A file to be named, or what is wrong with a folder that should have held some.
+struct Input {
+  fs::path file;
+  std::string problem;
+};
+
+// All object files below a folder, sorted, and an input with a problem for each folder that cannot be read, or where
+// there is no object.
+std::vector<Input> files_below(const fs::path& folder) {
+  std::vector<Input> files;
+  std::vector<UnreadFolder> unread;
+  for (const fs::path& file : object_files_below(folder, unread)) {
+    files.push_back({file, {}});
+  }
+  for (const auto& [where, error] : unread) {
+    files.push_back({where, "cannot be read: " + error.message()});
+  }
+  if (files.empty()) {
+    files.push_back({folder, "holds no object files"});
+  }
+  return files;
+}
+
+// Files as they are; folders stand for all object files below them.
+std::vector<Input> expand_folders(const std::vector<fs::path>& arguments) {
+  std::vector<Input> inputs;
+  for (const fs::path& argument : arguments) {
+    std::error_code error;
+    if (fs::is_directory(argument, error)) {
+      const std::vector<Input> below = files_below(argument);
+      inputs.insert(inputs.end(), below.begin(), below.end());
+    } else {
+      inputs.push_back({argument, {}});
+    }
+  }
+  return inputs;
+}
+
+// Objects of a kind that the judges were not taught for: told once, not for each.
+struct Misfits {
+  std::size_t count = 0;
+  std::string first;
+
+  void add(const fs::path& file, const Answer& answer) {
+    if (answer.classification && !answer.classification->misfit.empty() && count++ == 0) {
+      first = file.string() + ": " + answer.classification->misfit;
+    }
+  }
+
+  void tell() const {
+    if (count > 0) {
+      std::fflush(stdout);
+      message(first + (count > 1 ? fmt::format(" ({} more are of such a kind)", count - 1) : ""));
+    }
+  }
+};
+
+// A folder without objects has no file to be named, but an answer all the same.
+Answer problem_of(const Input& input) {
+  return {{}, input.file.string() + ": " + input.problem};
+}
+
+// Classifies on all threads and ranks and prints in the order of the inputs, each as soon as those before it are
+// printed. Returns what became of each, where a report wants it, and how many could not be classified.
+struct Classified {
+  std::vector<NamedFile> named;
+  std::size_t failed = 0;
+};
+
+Classified classify_all(const Model& model, const std::vector<Input>& inputs, const ClassifyArguments& arguments,
+                        TaskFarm& farm) {
+  std::vector<std::string> names;
+  for (const Input& input : inputs) {
+    names.push_back(input.file.string());
+  }
+  AnswerLook look = arguments.look;
+  look.json = arguments.run.json;
+  AnswerPrinter printer(model, names, look);
+  ProgressBar bar(arguments.run);
+  std::size_t printed = 0;
+  Classified result;
+  Misfits misfits;
+  const auto print = [&](const Answer& answer) {
+    misfits.add(inputs[printed].file, answer);
+    result.failed += answer.classification ? 0 : 1;
+    bar.wipe();
+    printer.print(names[printed], answer);
+    if (!arguments.report.empty()) {
+      result.named.push_back({inputs[printed].file, answer});
+    }
+    ++printed;
+  };
+  const auto print_problems = [&] {  // of inputs that come before the next file
+    while (printed < inputs.size() && !inputs[printed].problem.empty()) {
+      print(problem_of(inputs[printed]));
+    }
+  };
+  std::vector<const fs::path*> files;
+  for (const Input& input : inputs) {
+    if (input.problem.empty()) {
+      files.push_back(&input.file);
+    }
+  }
+  const ClassifyJob job{model,
+                        arguments.model,
+                        files.size(),
+                        [&](std::size_t i) -> const fs::path& { return *files[i]; },
+                        arguments.run.division(),
+                        arguments.limits};
+  const auto deliver = [&](std::size_t, const Answer& answer) {
+    print_problems();
+    print(answer);
+  };
+  classify_files(farm, job, deliver, [&](std::size_t) { bar.update("naming objects", printed, inputs.size()); });
+  print_problems();
+  bar.wipe();
+  if (!arguments.run.quiet) {
+    misfits.tell();
+  }
+  return result;
+}
+
+RunIdentity identity_of(const Model& model, const std::vector<Input>& inputs, const ClassifyArguments& arguments) {
+  FilesIdentity data;
+  data.add(arguments.model);
+  for (const Input& input : inputs) {
+    data.add(input.file);
+  }
+  return {settings_identity("classify", model.settings, limits_text(arguments.limits)), data.text()};
+}
+
+int run_classify(const ClassifyArguments& arguments, TaskFarm& farm) {
+  const Model model = read_model(arguments.model);
+  const std::vector<Input> files = expand_folders(arguments.inputs);
+  FarmRun run(farm, arguments.run);
+  run.keep_journal({}, [&] { return identity_of(model, files, arguments); });
+  check_report(arguments.report);
+  const auto [named, failed] = classify_all(model, files, arguments, farm);
+  if (!arguments.report.empty()) {
+    write_classify_report(arguments.report, arguments.model, model, named, arguments.look, arguments.limits,
+                          arguments.run);
+  }
+  if (failed > 0 && files.size() > 1 && !arguments.run.quiet) {
+    std::fflush(stdout);
+    message(fmt::format("{} of {} objects could not be named", failed, files.size()));
+  }
+  std::fflush(stdout);
+  run.finish();
+  return failed > 0 ? 2 : 0;
+}
+
+}  // namespace
+
+Command add_classify(CLI::App& parent) {
+  auto arguments = std::make_shared<ClassifyArguments>();
+  CLI::App* command = parent.add_subcommand("classify", "Name objects by a model");
+  command->footer(
+      "Example:\n"
+      "  spincat classify furniture.spincat chair.obj scans/*.ply\n"
+      "  spincat classify furniture.spincat incoming/ --reject 0.5 --json > names.jsonl");
+  command->add_option("model", arguments->model, "A model file written by spincat train")
+      ->type_name("MODEL")
+      ->required();
+  command->add_option("files", arguments->inputs, "Objects, or folders of objects")->type_name("FILE")->required();
+  command
+      ->add_option("--reject", arguments->look.reject,
+                   "Answer 'unknown' where the confidence is below this: for objects of none of the categories")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("P");
+  command->add_flag("--votes", arguments->look.votes, "Show what every judge said");
+  add_report_option(*command, arguments->report);
+  add_limit_options(*command, arguments->limits);
+  arguments->run.add_to(*command);
+  arguments->run.add_farm_options_to(*command);
+  return [arguments](TaskFarm& farm) { return run_classify(*arguments, farm); };
+}
+
+}  // namespace spincat::app

@@ -1,0 +1,67 @@
+// The plane that objects stand on, and the part of it that the camera sees.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "spincat/camera/source/depth_image.h"
+
+namespace spincat {
+
+// All points x with normal . x + offset = 0, in metres in the camera's frame. The normal has length 1 and points to the
+// side of the camera.
+struct Table {
+  Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();
+  float offset = 0.0F;
+  double share = 0.0;  // of the readings that lie on it, near ones counting more
+
+  float height(const Eigen::Vector3f& point) const { return normal.dot(point) + offset; }
+};
+
+struct TableSettings {
+  std::optional<Eigen::Vector3f> up;  // what is up in the camera's frame: without it a wall may pass for a table
+  double least_share = 0.1;           // of the readings, below which no plane is a table
+  int trials = 200;
+  std::uint64_t seed = 1;
+};
+
+// How far a reading of a plane at depth z may lie from it: what a structured-light sensor's noise amounts to.
+inline float plane_tolerance(float z) {
+  return 0.004F + 0.005F * z * z;
+}
+
+// The plane with most readings on it, each weighted by 1 / z^2: the best of random triples (RANSAC, Fischler and Bolles
+// 1981), refined by least squares. `before`, the table of the frame before, is kept where hardly another is better. No
+// table where there are too few readings, or none of the planes holds least_share of them. Deterministic.
+std::optional<Table> find_table(const DepthImage& image, const Intrinsics& intrinsics, const TableSettings& settings,
+                                const std::optional<Table>& before = {});
+
+// The convex hull of what is seen of a table, in cells of 2 cm, two cells wider all round.
+class TableArea {
+ public:
+  TableArea(const DepthImage& image, const Intrinsics& intrinsics, const Table& table);
+
+  // Whether the point lies above (or below) the area.
+  bool contains(const Eigen::Vector3f& point) const;
+  bool empty() const { return cells_.empty(); }
+
+ private:
+  struct Cell {
+    int x;
+    int y;
+  };
+  Cell cell_of(const Eigen::Vector3f& point) const;
+  std::vector<std::uint8_t> filled_cells(const DepthImage& image, const Intrinsics& intrinsics, const Table& table);
+
+  Eigen::Vector3f x_axis_;
+  Eigen::Vector3f y_axis_;
+  Eigen::Vector2f low_ = Eigen::Vector2f::Zero();
+  int columns_ = 0;
+  int rows_ = 0;
+  std::vector<std::uint8_t> cells_;  // rows_ x columns_: 1 inside
+};
+
+}  // namespace spincat

@@ -1,0 +1,52 @@
+// Where depth frames come from.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "spincat/camera/source/depth_image.h"
+#include "spincat/io/read_limits.h"
+
+namespace spincat {
+
+struct Frame {
+  std::string name;   // of its file
+  double time = 0.0;  // seconds, as the recording tells it; else its number over 30
+  DepthImage image;
+  Intrinsics intrinsics;
+};
+
+// Frames one after the other.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+
+  // The next frame, or nothing after the last. Throws InputError, naming the file, when a frame cannot be read; the one
+  // after it may be asked for then.
+  virtual std::optional<Frame> next() = 0;
+
+  // Leaves the next frame out, where there is one. Does not throw for a frame that cannot be read.
+  virtual void skip();
+};
+
+struct FrameSettings {
+  std::optional<std::filesystem::path> calibration;  // a file as read_calibration reads it; else the folder's
+                                                     // camera.txt, else that of a Kinect
+                                                     // (640 x 480)
+  std::optional<double> units_per_metre;             // of the numbers in depth pictures; else the calibration's
+  bool loop = false;                                 // after the last frame comes the first
+  ReadLimits limits;                                 // of each frame's file
+};
+
+// A recording: a folder of grey PNG files in the order of their names (of TUM's depth.txt where there is one, which
+// gives times as well), a folder of organized PCD files, or one file of either kind. An organized PCD carries its own
+// calibration. Throws InputError naming the file or folder when there is no frame, or the list or the calibration
+// cannot be read. What a folder holds or a list names must be a regular file (or a link to one): else that frame, list
+// or calibration cannot be read. The list's last line is left out where it has no end and is no line, or names a file
+// that is not there: it was cut off. One file that is named by itself may be a pipe.
+std::unique_ptr<FrameSource> open_recording(const std::filesystem::path& place, const FrameSettings& settings);
+
+}  // namespace spincat

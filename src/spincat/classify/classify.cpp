@@ -1,0 +1,41 @@
+#include "spincat/classify/classify.h"
+
+#include <fmt/format.h>
+
+#include "spincat/describe/stopwatch.h"
+#include "spincat/error.h"
+#include "spincat/io/read_object.h"
+
+namespace spincat {
+
+Classification classify(const Model& model, const Object& object, const EncodePrepared& elsewhere) {
+  Classification result;
+  result.misfit = misfit(kind_of(object), model.kinds, model.settings.taught_for);
+  const FeatureVector features = describe(object, model.settings, 0, &result.seconds, elsewhere);
+  if (features.values.size() != model.feature_length()) {
+    throw InputError(
+        fmt::format("gives {} features where the model expects {}", features.values.size(), model.feature_length()));
+  }
+  Stopwatch watch;
+  result.ballot = model.judges.vote(features.values);
+  const double familiarity = model.familiarity.of(features.values, result.ballot.winner);
+  result.confidence = model.calibration.confidence(result.ballot, familiarity);
+  result.seconds.judge = watch.lap();
+  return result;
+}
+
+Classification classify_file(const Model& model, const std::filesystem::path& file, const ReadLimits& limits,
+                             const EncodePrepared& elsewhere) {
+  Stopwatch watch;
+  const Object object = read_object(file, limits);
+  const double read = watch.lap();
+  try {
+    Classification result = classify(model, object, elsewhere);
+    result.seconds.read = read;
+    return result;
+  } catch (const InputError& error) {
+    throw InputError(file.string(), error.problem());
+  }
+}
+
+}  // namespace spincat

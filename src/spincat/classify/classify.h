@@ -1,0 +1,30 @@
+// Naming: from an object and a model to a ballot.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "spincat/classify/model.h"
+#include "spincat/describe/describe.h"
+#include "spincat/geometry/object.h"
+#include "spincat/io/read_limits.h"
+#include "spincat/judge/ballot.h"
+
+namespace spincat {
+
+struct Classification {
+  Ballot ballot;            // categories as indices into Model::categories
+  double confidence = 0.0;  // in (0, 1): how likely the winner is right, by the model's calibration
+  std::string misfit;       // why the judges should not be trusted with this object (kinds.h); mostly empty
+  StageSeconds seconds;
+};
+
+// Prepares, describes and judges an object exactly as training did, `elsewhere` as in describe(). Deterministic. Throws
+// InputError (without a file name) when the object has no extent or does not fit the model.
+Classification classify(const Model& model, const Object& object, const EncodePrepared& elsewhere = {});
+
+// The same for an object in a file; what is thrown names the file.
+Classification classify_file(const Model& model, const std::filesystem::path& file, const ReadLimits& limits = {},
+                             const EncodePrepared& elsewhere = {});
+
+}  // namespace spincat

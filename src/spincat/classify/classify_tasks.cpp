@@ -1,0 +1,103 @@
+#include "spincat/classify/classify_tasks.h"
+
+#include <exception>
+#include <memory>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include "spincat/describe/describe_tasks.h"
+#include "spincat/describe/packed_features.h"
+#include "spincat/describe/packed_limits.h"
+#include "spincat/describe/rank_problems.h"
+#include "spincat/error.h"
+#include "spincat/parallel/packing.h"
+
+namespace spincat {
+namespace {
+
+Answer answer_for(const Model& model, const std::filesystem::path& file, const ReadLimits& limits,
+                  const EncodePrepared& elsewhere = {}) {
+  try {
+    return {classify_file(model, file, limits, elsewhere), {}};
+  } catch (const std::bad_alloc&) {
+    return {{}, file.string() + ": not enough memory for it"};
+  } catch (const Error& error) {
+    return {{}, error.what()};
+  } catch (const std::exception& error) {  // whatever it is, the other files are named
+    return {{}, file.string() + ": " + error.what()};
+  }
+}
+
+// The margins are all there is to a ballot: the rest is counted again.
+std::string pack(const Answer& answer) {
+  Packer packer;
+  packer.add(std::string_view(answer.error));
+  if (answer.classification) {
+    std::vector<float> margins;
+    for (const Vote& vote : answer.classification->ballot.votes) {
+      margins.push_back(vote.margin);
+    }
+    packer.add(std::span<const float>(margins)).add(answer.classification->confidence);
+    packer.add(std::string_view(answer.classification->misfit));
+    pack_seconds(packer, answer.classification->seconds);
+  }
+  return packer.take();
+}
+
+Answer unpack_answer(std::string_view bytes, std::size_t categories) {
+  Unpacker fields(bytes);
+  Answer answer;
+  answer.error = fields.get_text();
+  if (!fields.empty()) {
+    Classification& c = answer.classification.emplace();
+    c.ballot = count_votes(static_cast<std::uint32_t>(categories), fields.get_values<float>());
+    c.confidence = fields.get<double>();
+    c.misfit = fields.get_text();
+    c.seconds = unpack_seconds(fields);
+  }
+  return answer;
+}
+
+}  // namespace
+
+Work make_classify_work(std::string_view context) {
+  Unpacker fields(context);
+  const ReadLimits limits = unpack_limits(fields);
+  const auto model = std::make_shared<const Model>(read_model(std::filesystem::path(fields.rest())));
+  return throwing_problems(
+      [model, limits](std::string_view file) { return pack(answer_for(*model, std::filesystem::path(file), limits)); });
+}
+
+void classify_files(TaskFarm& farm, const ClassifyJob& job, const std::function<void(std::size_t i, Answer)>& deliver,
+                    const TaskFarm::Tick& tick) {
+  if (shares_out_points(job.model.settings, job.division)) {
+    for (std::size_t i = 0; i < job.files; ++i) {
+      const EncodePrepared elsewhere = encode_on(farm, job.model.settings, job.division, [&](std::size_t) {
+        if (tick) {
+          tick(i);
+        }
+      });
+      deliver(i, answer_for(job.model, job.file(i), job.limits, elsewhere));
+    }
+    return;
+  }
+  Job tasks;
+  tasks.kind = kClassifyTasks;
+  tasks.context = [&](Packer& packer) {
+    pack_limits(packer, job.limits);
+    packer.add_rest(job.model_file.string());
+  };
+  tasks.work = [&](std::string_view file) {
+    return pack(answer_for(job.model, std::filesystem::path(file), job.limits));
+  };
+  tasks.is_worth_keeping = has_no_problem;
+  tasks.tasks = job.files;
+  tasks.task = [&](std::size_t i) { return job.file(i).string(); };
+  tasks.deliver = [&](std::size_t i, const std::string& result) {
+    deliver(i, unpack_answer(result, job.model.categories.size()));
+  };
+  farm.run(tasks, tick);
+}
+
+}  // namespace spincat

@@ -1,0 +1,295 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "spincat/classify/model.h"
+#include "spincat/encode/encoding.h"
+#include "spincat/error.h"
+#include "spincat/files/file.h"
+#include "spincat/files/magic.h"
+#include "spincat/files/record_file.h"
+#include "spincat/settings/settings_json.h"
+#include "spincat/settings/whole_number.h"
+
+// Numbers are kept as the machine has them; spincat is built for little-endian machines only.
+static_assert(std::endian::native == std::endian::little);
+
+namespace spincat {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t kMostCategories = 10'000;
+constexpr std::size_t kMostFeatures = 100'000'000;
+
+const Json& member(const Json& json, const char* name) {
+  const auto at = json.find(name);
+  if (at == json.end()) {
+    throw InputError(fmt::format("model: '{}' is missing", name));
+  }
+  return *at;
+}
+
+// `count` finite floats into `values`.
+void unpack_floats(const Json& json, const char* name, std::span<float> values) {
+  const Json& blob = member(json, name);
+  if (!blob.is_binary() || blob.get_binary().size() != values.size_bytes()) {
+    throw InputError(fmt::format("model: '{}' does not hold {} numbers", name, values.size()));
+  }
+  if (!values.empty()) {
+    std::memcpy(values.data(), blob.get_binary().data(), values.size_bytes());
+  }
+  for (const float value : values) {
+    if (!std::isfinite(value)) {
+      throw InputError(fmt::format("model: '{}' holds a number that is not finite", name));
+    }
+  }
+}
+
+template <class T>
+T value(const Json& json, const char* name) {
+  try {
+    return member(json, name).get<T>();
+  } catch (const Json::exception&) {
+    throw InputError(fmt::format("model: '{}' is of the wrong type", name));
+  }
+}
+
+// A count for each judge or category.
+std::vector<std::uint32_t> counts(const Json& json, const char* name, std::size_t size) {
+  const Json& list = member(json, name);
+  std::vector<std::uint32_t> result;
+  if (list.is_array() && list.size() == size) {
+    for (const Json& element : list) {
+      if (const auto count = whole_number<std::uint32_t>(element)) {
+        result.push_back(*count);
+      }
+    }
+  }
+  if (result.size() != size) {
+    throw InputError(fmt::format("model: '{}' does not hold {} counts", name, size));
+  }
+  return result;
+}
+
+template <class Matrix>
+std::span<const float> numbers_of(const Matrix& matrix) {
+  return {matrix.data(), static_cast<std::size_t>(matrix.size())};
+}
+
+Json judges_to_json(const JudgeList& judges, RecordBlobs& blobs) {
+  Json json = {{"features", judges.seen_length()},
+               {"weights", blobs.add(numbers_of(judges.weights))},
+               {"bias", blobs.add(numbers_of(judges.bias))},
+               {"support_vectors", judges.support_vectors}};
+  if (judges.kernel.kind != KernelKind::linear) {
+    json["blocks"] = judges.kernel.block_sizes;
+    json["scale"] = blobs.add(judges.kernel.scale);
+    json["supports"] = blobs.add(numbers_of(judges.supports));
+  }
+  if (!judges.codebook.empty()) {
+    json["local_size"] = judges.codebook.words.cols();
+    json["codebook"] = blobs.add(numbers_of(judges.codebook.words));
+  }
+  return json;
+}
+
+// A matrix of `columns` columns and as many rows as the blob has, all numbers finite. The blob's size is checked before
+// any memory is taken for it.
+FeatureMatrix unpack_matrix(const Json& json, const char* name, std::size_t columns) {
+  const Json& blob = member(json, name);
+  const std::size_t numbers = blob.is_binary() ? blob.get_binary().size() / sizeof(float) : 0;
+  if (numbers == 0 || numbers % columns != 0) {
+    throw InputError(fmt::format("model: '{}' is of the wrong size", name));
+  }
+  FeatureMatrix matrix(static_cast<Eigen::Index>(numbers / columns), static_cast<Eigen::Index>(columns));
+  unpack_floats(json, name, {matrix.data(), numbers});
+  return matrix;
+}
+
+// What judges with another kernel than the linear one need besides.
+void kernel_from_json(const Json& json, KernelKind kind, std::size_t features, JudgeList& judges) {
+  judges.kernel.kind = kind;
+  const Json& list = member(json, "blocks");
+  if (!list.is_array() || list.empty() || list.size() > features) {
+    throw InputError("model: 'blocks' is not a list of counts");
+  }
+  judges.kernel.block_sizes = counts(json, "blocks", list.size());
+  std::size_t sum = 0;
+  for (const std::uint32_t size : judges.kernel.block_sizes) {
+    sum += size;
+    if (size == 0) {
+      throw InputError("model: 'blocks' has an empty block");
+    }
+  }
+  if (sum != features) {
+    throw InputError(fmt::format("model: 'blocks' add up to {}, not to {} features", sum, features));
+  }
+  judges.kernel.scale.resize(list.size());
+  unpack_floats(json, "scale", judges.kernel.scale);
+  for (const float scale : judges.kernel.scale) {
+    if (scale < 0.0F) {
+      throw InputError("model: 'scale' holds a number below 0");
+    }
+  }
+  judges.supports = unpack_matrix(json, "supports", features);
+}
+
+void codebook_from_json(const Json& json, std::size_t features, Codebook& codebook) {
+  const std::size_t size = whole_number<std::size_t>(member(json, "local_size")).value_or(0);
+  if (size == 0 || size > kMostFeatures / kLocalFeatures) {
+    throw InputError(
+        fmt::format("model: 'local_size' is not a whole number from 1 to {}", kMostFeatures / kLocalFeatures));
+  }
+  codebook.words = unpack_matrix(json, "codebook", size);
+  if (static_cast<std::size_t>(codebook.words.rows()) != features) {
+    throw InputError("model: 'codebook' is of the wrong size");
+  }
+}
+
+JudgeList judges_from_json(const Json& json, std::size_t categories, KernelKind kind) {
+  const std::size_t count = categories * (categories - 1) / 2;
+  const std::size_t features = whole_number<std::size_t>(member(json, "features")).value_or(0);
+  if (features == 0 || features > kMostFeatures) {
+    throw InputError(fmt::format("model: 'features' is not a whole number from 1 to {}", kMostFeatures));
+  }
+  JudgeList judges;
+  judges.categories = static_cast<std::uint32_t>(categories);
+  std::size_t columns = features;
+  if (kind != KernelKind::linear) {
+    kernel_from_json(json, kind, features, judges);
+    columns = static_cast<std::size_t>(judges.supports.rows());
+  }
+  judges.weights = unpack_matrix(json, "weights", columns);
+  if (static_cast<std::size_t>(judges.weights.rows()) != count) {
+    throw InputError("model: 'weights' is of the wrong size");
+  }
+  if (json.contains("codebook")) {
+    codebook_from_json(json, features, judges.codebook);
+  }
+  judges.bias.resize(static_cast<Eigen::Index>(count));
+  unpack_floats(json, "bias", {judges.bias.data(), count});
+  judges.support_vectors = counts(json, "support_vectors", count);
+  return judges;
+}
+
+Json familiarity_to_json(const Familiarity& f, RecordBlobs& blobs) {
+  return {{"labels", f.labels},
+          {"objects", blobs.add(numbers_of(f.objects))},
+          {"typical", blobs.add(f.typical)},
+          {"spread", blobs.add(f.spread)}};
+}
+
+Familiarity familiarity_from_json(const Json& json, std::size_t categories, std::size_t features) {
+  Familiarity f;
+  const Json& labels = member(json, "labels");
+  if (!labels.is_array()) {
+    throw InputError("model: 'labels' is no list");
+  }
+  if (labels.empty()) {
+    return f;
+  }
+  f.labels = counts(json, "labels", labels.size());
+  // The blob's size is checked before any memory is taken for it.
+  const Json& objects = member(json, "objects");
+  const std::size_t length = objects.is_binary() ? objects.get_binary().size() / sizeof(float) / f.labels.size() : 0;
+  if (length == 0 || length > features) {
+    throw InputError("model: 'objects' is of the wrong size");
+  }
+  f.objects.resize(static_cast<Eigen::Index>(f.labels.size()), static_cast<Eigen::Index>(length));
+  unpack_floats(json, "objects", {f.objects.data(), f.labels.size() * length});
+  f.typical.resize(categories);
+  f.spread.resize(categories);
+  unpack_floats(json, "typical", f.typical);
+  unpack_floats(json, "spread", f.spread);
+  std::vector<bool> present(categories, false);
+  for (const std::uint32_t label : f.labels) {
+    if (label >= categories) {
+      throw InputError("model: 'labels' names a category that is not there");
+    }
+    present[label] = true;
+  }
+  if (std::ranges::find(present, false) != present.end()) {
+    throw InputError("model: 'labels' leaves a category without objects");
+  }
+  if (std::ranges::any_of(f.spread, [](float spread) { return !(spread > 0.0F); })) {
+    throw InputError("model: 'spread' is not above zero");
+  }
+  return f;
+}
+
+Model model_from_json(const Json& json) {
+  Model model;
+  model.settings = settings_from_json(member(json, "settings"));
+  model.categories = value<std::vector<std::string>>(json, "categories");
+  const std::size_t n = model.categories.size();
+  if (n < 2 || n > kMostCategories || std::set(model.categories.begin(), model.categories.end()).size() != n) {
+    throw InputError("model: 'categories' are not two or more different names");
+  }
+  model.judges = judges_from_json(member(json, "judges"), n, model.settings.judge.kernel);
+  if (make_encoding(model.settings.encoding)->gives_local_features() == model.judges.codebook.empty()) {
+    throw InputError(fmt::format("model: a codebook is {} for the encoding {}",
+                                 model.judges.codebook.empty() ? "missing" : "not expected", model.settings.encoding));
+  }
+  model.calibration.slope = value<double>(member(json, "calibration"), "slope");
+  model.calibration.offset = value<double>(member(json, "calibration"), "offset");
+  model.calibration.familiarity_slope = value<double>(member(json, "calibration"), "familiarity_slope");
+  if (!std::isfinite(model.calibration.slope) || !std::isfinite(model.calibration.offset) ||
+      !std::isfinite(model.calibration.familiarity_slope)) {
+    throw InputError("model: 'calibration' is not finite");
+  }
+  model.familiarity = familiarity_from_json(member(json, "familiarity"), n, model.feature_length());
+  model.dataset = value<std::string>(json, "dataset");
+  model.made_by = value<std::string>(json, "made_by");
+  model.object_counts = counts(json, "object_counts", n);
+  const std::vector<std::uint32_t> kinds = counts(json, "kinds", 2);
+  model.kinds = {kinds[0], kinds[1]};
+  return model;
+}
+
+}  // namespace
+
+void write_model(const std::filesystem::path& file, const Model& model) {
+  RecordBlobs blobs;
+  const Json json = {{"settings", settings_to_json(model.settings)},
+                     {"categories", model.categories},
+                     {"judges", judges_to_json(model.judges, blobs)},
+                     {"calibration",
+                      {{"slope", model.calibration.slope},
+                       {"offset", model.calibration.offset},
+                       {"familiarity_slope", model.calibration.familiarity_slope}}},
+                     {"familiarity", familiarity_to_json(model.familiarity, blobs)},
+                     {"dataset", model.dataset},
+                     {"object_counts", model.object_counts},
+                     {"kinds", {model.kinds.meshes, model.kinds.clouds}},
+                     {"made_by", model.made_by}};
+  write_record(file, "model", kModelVersion, json, blobs);
+}
+
+Model read_model(const std::filesystem::path& file) {
+  const std::string bytes = read_file(file);
+  try {
+    return model_from_json(unpack_record(bytes, "model", kModelVersion, kOldestModelVersion));
+  } catch (const InputError& error) {
+    throw InputError(file.string(), error.problem());
+  }
+}
+
+bool is_model_file(const std::filesystem::path& file) {
+  std::array<char, 8> first{};
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(first.data(), first.size());
+  return stream && std::string_view(first.data(), first.size()) == kFileMagic;
+}
+
+}  // namespace spincat

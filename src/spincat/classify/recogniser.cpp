@@ -1,0 +1,163 @@
+#include "spincat/classify/recogniser.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+#include "spincat/camera/segment/segment_cloud.h"
+#include "spincat/classify/classify.h"
+#include "spincat/describe/stopwatch.h"
+#include "spincat/error.h"
+#include "spincat/parallel/for_each.h"
+
+namespace spincat {
+namespace {
+
+// What depth cameras see, generously.
+constexpr double kNearest = 0.1;  // metres
+constexpr double kFurthest = 20.0;
+
+constexpr int kStride = 4;                 // every fourth pixel both ways is looked at
+constexpr std::size_t kFewReadings = 300;  // of these
+
+constexpr float kMostDepth = 1e6F;  // metres: what is more, or no number, is no reading
+
+bool is_sound(float depth) {
+  return depth >= 0.0F && depth <= kMostDepth;
+}
+
+struct Readings {
+  std::size_t count = 0;
+  double median = 0.0;  // depth
+};
+
+Readings readings_of(const DepthImage& image) {
+  std::vector<float> readings;
+  for (int v = 0; v < image.height; v += kStride) {
+    for (int u = 0; u < image.width; u += kStride) {
+      if (image.at(u, v) > 0.0F) {
+        readings.push_back(image.at(u, v));
+      }
+    }
+  }
+  if (readings.empty()) {
+    return {};
+  }
+  const auto middle = readings.begin() + static_cast<std::ptrdiff_t>(readings.size() / 2);
+  std::ranges::nth_element(readings, middle);
+  return {readings.size(), static_cast<double>(*middle)};
+}
+
+}  // namespace
+
+void RecogniserSettings::validate() const {
+  segment.validate();
+  if (table.up && !(table.up->allFinite() && table.up->norm() > 0.0F)) {
+    throw InputError("the direction that is up has no direction");
+  }
+  if (!(reject >= 0.0 && reject <= 1.0)) {
+    throw InputError(fmt::format("least confidence {} is out of range (0 to 1)", reject));
+  }
+  if (summed_frames < 1 || summed_frames > 10'000) {
+    throw InputError(fmt::format("number of summed frames {} is out of range (1 to 10000)", summed_frames));
+  }
+}
+
+Recogniser::Recogniser(const Model& model, const RecogniserSettings& settings, int threads)
+    : model_(model), settings_(settings), threads_(threads), tracks_(settings.tracks) {
+  settings.validate();
+}
+
+SeenFrame Recogniser::look(const DepthImage& image, const Intrinsics& intrinsics) {
+  if (std::ranges::all_of(image.depth, is_sound)) {
+    return look_at(image, intrinsics);
+  }
+  DepthImage sound = image;
+  std::ranges::replace_if(sound.depth, std::not_fn(is_sound), 0.0F);
+  return look_at(sound, intrinsics);
+}
+
+SeenFrame Recogniser::look_at(const DepthImage& image, const Intrinsics& intrinsics) {
+  SeenFrame frame;
+  Stopwatch watch;
+  const Readings readings = readings_of(image);
+  frame.median_depth = readings.median;
+  if (readings.count < kFewReadings) {
+    frame.status = FrameStatus::few_readings;
+  } else if (readings.median < kNearest || readings.median > kFurthest) {
+    frame.status = FrameStatus::wrong_units;
+  } else {
+    frame.table = find_table(image, intrinsics, settings_.table, table_);
+    frame.status = frame.table ? FrameStatus::empty_table : FrameStatus::no_table;
+  }
+  table_ = frame.table;
+  frame.seconds.table = watch.lap();
+  if (frame.table) {
+    frame.segmentation = segment(image, intrinsics, *frame.table, settings_.segment);
+    frame.seconds.segment = watch.lap();
+  }
+  find_objects(image, intrinsics, frame);
+  frame.seconds.name = watch.lap();
+  return frame;
+}
+
+void Recogniser::find_objects(const DepthImage& image, const Intrinsics& intrinsics, SeenFrame& frame) {
+  const std::vector<Segment>& found = frame.segmentation.objects;
+  std::vector<Eigen::Vector3f> centres;
+  for (const Segment& segment : found) {
+    centres.push_back(segment.centre);
+  }
+  const std::vector<std::uint64_t> ids = tracks_.follow(centres);
+  for (const std::uint64_t id : tracks_.forgotten()) {
+    memory_.erase(id);
+  }
+  frame.objects.resize(found.size());
+  if (!found.empty()) {
+    frame.status = FrameStatus::objects;
+  }
+  for_each_index(found.size(), threads_, [&](std::size_t i) {
+    frame.objects[i].id = ids[i];
+    frame.objects[i].segment = found[i];
+    name_object(image, intrinsics, frame, frame.objects[i]);
+  });
+  for (SeenObject& object : frame.objects) {
+    if (object.problem.empty()) {
+      sum_up(object);
+    }
+  }
+}
+
+void Recogniser::name_object(const DepthImage& image, const Intrinsics& intrinsics, const SeenFrame& frame,
+                             SeenObject& object) const {
+  object.distance = object.segment.centre.norm();
+  try {
+    const PointCloud cloud = segment_cloud(image, intrinsics, *frame.table, frame.segmentation, object.segment);
+    Classification named = classify(model_, cloud);
+    object.ballot = std::move(named.ballot);
+    object.confidence = named.confidence;
+  } catch (const InputError& error) {
+    object.problem = error.problem();
+  }
+}
+
+void Recogniser::sum_up(SeenObject& object) {
+  Memory& memory = memory_[object.id];
+  const auto most = static_cast<std::size_t>(settings_.summed_frames);
+  if (memory.ballots.size() == most) {
+    memory.ballots.erase(memory.ballots.begin());
+    memory.confidences.erase(memory.confidences.begin());
+  }
+  memory.ballots.push_back(object.ballot);
+  memory.confidences.push_back(object.confidence);
+  object.fused = sum_votes(memory.ballots);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < memory.ballots.size(); ++i) {
+    sum += memory.ballots[i].winner == object.fused.winner ? memory.confidences[i] : 0.0;
+  }
+  object.fused_confidence = sum / static_cast<double>(memory.ballots.size());
+  object.unknown = object.fused_confidence < settings_.reject;
+}
+
+}  // namespace spincat

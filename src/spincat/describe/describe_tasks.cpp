@@ -1,0 +1,203 @@
+#include "spincat/describe/describe_tasks.h"
+
+#include <algorithm>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "spincat/describe/packed_features.h"
+#include "spincat/describe/packed_limits.h"
+#include "spincat/describe/rank_problems.h"
+#include "spincat/describe/stopwatch.h"
+#include "spincat/encode/encoding.h"
+#include "spincat/error.h"
+#include "spincat/io/read_object.h"
+#include "spincat/settings/settings_json.h"
+
+namespace spincat {
+namespace {
+
+// From so many spin points on, an object is worth sharing out by itself.
+constexpr int kDenseSpinPoints = 8 * static_cast<int>(kSpinImageBlock * 8);
+
+// A RunError while reading says that the memory does not suffice for this object. Later ones are those of a farm.
+Object read_or_refuse(const std::function<Object()>& read) {
+  try {
+    return read();
+  } catch (const RunError& error) {
+    throw InputError(error.file(), error.problem());
+  }
+}
+
+Described described_file(const std::filesystem::path& file, int views, const ReadLimits& limits,
+                         const DescribeOne& describe_one) {
+  return describe_object([&] { return read_listed_object(file, limits); }, views, describe_one);
+}
+
+Work describe_work(const Settings& settings, int views, const ReadLimits& limits) {
+  return [settings, views, limits](std::string_view file) {
+    return pack(described_file(file, views, limits, [&](const Object& object, int copy, StageSeconds& seconds) {
+      return describe(object, settings, copy, &seconds);
+    }));
+  };
+}
+
+// Objects one after the other: rank 0 prepares, the spin points are shared out.
+void describe_by_points(TaskFarm& farm, const DescribeJob& job, const DeliverDescribed& deliver,
+                        const TaskFarm::Tick& tick) {
+  std::size_t done = 0;
+  const auto at_work = [&](std::size_t) {
+    if (tick) {
+      tick(done);
+    }
+  };
+  const EncodePrepared elsewhere = encode_on(farm, job.settings, job.division, at_work);
+  for (std::size_t i = 0; i < job.files; ++i) {
+    Described one =
+        described_file(job.file(i), job.views, job.limits, [&](const Object& object, int copy, StageSeconds& seconds) {
+          return describe(object, job.settings, copy, &seconds, elsewhere);
+        });
+    std::vector<std::vector<float>> numbers;
+    std::vector<FeatureBytes> values;
+    for (FeatureVector& features : one.features) {
+      numbers.push_back(std::exchange(features.values, {}));
+      values.emplace_back(std::span<const float>(numbers.back()));
+    }
+    deliver(i, one, values);
+    ++done;
+    at_work(0);
+  }
+}
+
+}  // namespace
+
+Described describe_object(const std::function<Object()>& read, int rows, const DescribeOne& describe_one) {
+  Described result;
+  const auto refuse = [&](const std::string& problem) {
+    result.features.clear();
+    result.problem = problem;
+  };
+  try {
+    Stopwatch watch;
+    const Object object = read_or_refuse(read);
+    result.kind = kind_of(object);
+    result.seconds.read = watch.lap();
+    for (int row = 0; row < rows; ++row) {
+      result.features.push_back(describe_one(object, row, result.seconds));
+    }
+  } catch (const InputError& error) {
+    refuse(error.problem());
+  } catch (const std::bad_alloc&) {
+    refuse("not enough memory for it");
+  }
+  return result;
+}
+
+std::string pack(const Described& described) {
+  constexpr std::size_t kBesidesValues = 200;  // of a feature vector with a few blocks
+  std::size_t size = described.problem.size() + kBesidesValues;
+  for (const FeatureVector& features : described.features) {
+    size += features.values.size() * sizeof(float) + kBesidesValues;
+  }
+  Packer packer;
+  packer.reserve(size);
+  packer.add(std::string_view(described.problem)).add(described.kind);
+  pack_seconds(packer, described.seconds);
+  for (const FeatureVector& features : described.features) {
+    pack_features(packer, features);
+  }
+  return packer.take();
+}
+
+PackedDescribed look_at_described(std::string_view bytes) {
+  Unpacker fields(bytes);
+  PackedDescribed described;
+  described.head.problem = fields.get_text();
+  described.head.kind = fields.get<ObjectKind>();
+  described.head.seconds = unpack_seconds(fields);
+  while (!fields.empty()) {
+    auto [head, values] = look_at_features(fields);
+    described.head.features.push_back(std::move(head));
+    described.values.push_back(values);
+  }
+  return described;
+}
+
+Described unpack_described(std::string_view bytes) {
+  auto [described, values] = look_at_described(bytes);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    std::vector<float>& numbers = described.features[i].values;
+    numbers.resize(values[i].length());
+    std::ranges::copy(values[i].bytes, reinterpret_cast<char*>(numbers.data()));
+  }
+  return described;
+}
+
+bool shares_out_points(const Settings& settings, Division division) {
+  const bool dense = settings.prepare.spin_points >= kDenseSpinPoints && make_encoding(settings.encoding)->pools();
+  return dense || division == Division::images;
+}
+
+EncodePrepared encode_on(TaskFarm& farm, const Settings& settings, Division division, const TaskFarm::Tick& tick) {
+  return [&farm, &settings, division, tick](const Preparation& prepared) {
+    const DenseObject dense{prepared.object.surface, prepared.object.spin_points, prepared.params};
+    return encode_object(farm, dense, settings.encoding, division, tick);
+  };
+}
+
+RankWork make_describe_work(std::string_view context, std::optional<TableRows>& rows,
+                            const std::function<void()>& make_room) {
+  Unpacker fields(context);
+  const int views = fields.get<int>();
+  const auto rows_to_keep = fields.get<std::uint64_t>();
+  const ReadLimits limits = unpack_limits(fields);
+  const Settings settings = settings_from_json(nlohmann::json::parse(fields.get_text()));
+  RankWork result = throwing_problems(describe_work(settings, views, limits));
+  if (rows_to_keep > 0) {
+    make_room();
+    rows.emplace(rows_to_keep, static_cast<std::size_t>(views));
+    result.keep = [&rows](std::size_t task, std::string_view described) {
+      const std::vector<FeatureBytes> values = look_at_described(described).values;
+      if (!values.empty()) {
+        rows->put(task, values);
+      }
+    };
+  }
+  return result;
+}
+
+void describe_files(TaskFarm& farm, const DescribeJob& job, const DeliverDescribed& deliver,
+                    const TaskFarm::Tick& tick) {
+  if (shares_out_points(job.settings, job.division)) {
+    describe_by_points(farm, job, deliver, tick);
+    return;
+  }
+  Job tasks;
+  tasks.kind = kDescribeTasks;
+  tasks.context = [&](Packer& packer) {
+    const std::uint64_t rows_to_keep = job.keeps_rows ? job.files : 0;
+    pack_limits(packer.add(job.views).add(rows_to_keep), job.limits);
+    packer.add(settings_to_json(job.settings).dump());
+  };
+  if (job.keeps_rows) {
+    tasks.tells_all = [&](std::string_view result) -> std::optional<bool> {
+      const std::vector<FeatureBytes> values = look_at_described(result).values;
+      if (values.empty()) {
+        return std::nullopt;
+      }
+      return job.keeps_rows(values[0].length());
+    };
+  }
+  tasks.work = describe_work(job.settings, job.views, job.limits);
+  tasks.is_worth_keeping = has_no_problem;
+  tasks.tasks = job.files;
+  tasks.task = [&](std::size_t i) { return job.file(i).string(); };
+  tasks.deliver = [&](std::size_t i, const std::string& result) {
+    const PackedDescribed described = look_at_described(result);
+    deliver(i, described.head, described.values);
+  };
+  farm.run(tasks, tick);
+}
+
+}  // namespace spincat

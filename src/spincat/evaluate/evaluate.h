@@ -1,0 +1,146 @@
+// Measuring: how often the judges are right on objects that they were not taught on.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "spincat/dataset/dataset.h"
+#include "spincat/dataset/parts.h"
+#include "spincat/describe/describe.h"
+#include "spincat/describe/division.h"
+#include "spincat/describe/progress.h"
+#include "spincat/evaluate/rates.h"
+#include "spincat/evaluate/tested_objects.h"
+#include "spincat/settings/settings.h"
+#include "spincat/train/feature_table.h"
+
+namespace spincat {
+
+class TaskFarm;
+
+// Which objects are learned from and which are tested.
+enum class Protocol {
+  splits,         // repeated stratified random splits of one data set
+  leave_one_out,  // each object by judges that were taught on all others
+  across,         // all objects of another data set (or of the data set's own test part), once
+};
+
+struct EvaluateOptions {
+  bool leave_one_out = false;
+  int splits = 20;                         // for each seed, 1 to 10,000
+  double test_share = 0.2;                 // of each category's objects, more than 0 and less than 1
+  std::vector<std::uint64_t> split_seeds;  // of the splits; none means Settings::seed. Everything else that is random
+                                           // (points, copies) follows Settings::seed alone, so that objects are
+                                           // described once for all splits of all seeds
+  int fewest_objects = 1;                  // categories with fewer objects to learn from are left out, 1 to 1,000,000
+  TestOptions test;                        // how the tested objects are shown
+  bool measure_confidence = false;         // calibrates in each split, too: six times the teaching
+  std::vector<std::filesystem::path> strangers;  // files of objects of none of the categories; asks for the above
+  bool strict = false;       // an object that cannot be read ends the evaluation instead of being left out
+  int threads = 1;           // 1 or more; never changes the result
+  TaskFarm* farm = nullptr;  // describes the objects on its threads and ranks; never changes the result either
+  Division division = Division::sums;
+
+  // Throws InputError naming the option, its value and the allowed range.
+  void validate() const;
+  bool calibrates() const { return measure_confidence || !strangers.empty(); }
+};
+
+// The rates over the splits of one seed.
+struct SeedRates {
+  std::uint64_t seed = 0;
+  Rate mean_class_rate;
+  Rate overall_rate;
+};
+
+// What the confidence tells, as areas under the curve (roc.h). Confidences are of the judges of each split in objects
+// that they were not taught on.
+struct ConfidenceMeasure {
+  double right_or_wrong = 0.5;    // tested objects named right against those named wrong, of all splits together
+  double known_or_unknown = 0.5;  // tested objects against strangers, the mean over the splits
+  double mean_confidence = 0.0;   // over the tested objects of all splits; close to their overall rate when calibrated
+  std::uint32_t strangers = 0;    // how many could be read, each counted by its views
+};
+
+// Rates by the number of views of an object over which votes are summed.
+struct ViewsRates {
+  std::uint32_t views = 1;
+  double mean_class_rate = 0.0;  // over the splits the mean
+  double overall_rate = 0.0;
+};
+
+// A tested object and what it was named.
+struct TestedObject {
+  std::filesystem::path file;
+  std::uint32_t category = 0;        // the truth
+  std::vector<std::uint32_t> named;  // the category it was given, in each split that tested it; maybe in none
+};
+
+struct Evaluation {
+  std::string dataset;
+  std::string test_dataset;  // empty when the data set is its own
+  Protocol protocol = Protocol::splits;
+  std::vector<std::string> categories;            // n
+  std::vector<std::uint32_t> object_counts;       // n: objects of each category to learn from (and to test)
+  std::vector<std::uint32_t> test_object_counts;  // n, with Protocol::across; else empty
+  std::string list_checksum;                      // parts.h
+  std::string test_list_checksum;
+  std::vector<LeftOutCategory> left_out;
+  std::vector<SkippedObject> skipped;
+  int splits = 0;                          // for each seed; 1 with the other protocols
+  std::vector<std::uint64_t> split_seeds;  // empty with the other protocols
+  Rate mean_class_rate;  // the mean of the confusion matrix's diagonal, each row as shares (the paper's figure)
+  Rate overall_rate;     // right votes over all votes
+  std::vector<Rate> category_rates;  // n: over the splits that tested the category
+  std::vector<SeedRates> seeds;      // with Protocol::splits
+  std::vector<ViewsRates> views;     // with TaughtFor::views: 1, 2, 4, ... and all views; the rates above are of all
+  Confusion confusion;               // added up over the splits
+  std::vector<TestedObject> tested;  // all that could be, in the order of the data set: confusion[i][j] is how often
+                                     // objects of category i were named j
+  std::optional<ConfidenceMeasure> confidence;
+  std::string misfit;         // why the judges should not be trusted with the tested objects (kinds.h); mostly empty
+  StageSeconds seconds;       // added up over threads; judge: teaching and voting
+  double wall_seconds = 0.0;  // of everything
+};
+
+// What an evaluation needs of its objects, described once. The judges' settings play no part in it, so that one of
+// these serves all of them.
+struct EvaluationData {
+  std::string dataset;
+  std::string test_dataset;
+  FeatureTable table;               // to learn from, and to test unless there is `tested`
+  std::optional<TestTable> tested;  // the objects of another data set, or those of `table` in another form
+  bool across = false;              // `tested` is another data set
+  TestTable strangers;
+  std::vector<LeftOutCategory> left_out;
+  double wall_seconds = 0.0;
+};
+
+// Describes every object of the data set once, and again in the form it is tested in where that is another.
+// Throws InputError when options or settings are out of range, or fewer than two categories can be read.
+EvaluationData describe_for_evaluation(const Dataset& dataset, const Settings& settings, const EvaluateOptions& options,
+                                       const Progress& progress = {});
+
+// The same for judges that learn from one data set and are tested on another. Categories are matched by their names;
+// those missing on either side are left out. Throws as the above and common_categories (dataset/parts.h) do.
+EvaluationData describe_across(const Dataset& train, const Dataset& test, const Settings& settings,
+                               const EvaluateOptions& options, const Progress& progress = {});
+
+// For each split teaches the judges on the training objects and their copies, and lets them vote on the test objects.
+// The result is the same for the same data, settings and options, whatever the number of threads. A category with a
+// single object is never tested by splits; leaving that object out tests the judges of the other categories on it.
+// Intervals: over splits as rate_over_splits, otherwise as the pooled rates (rates.h).
+Evaluation judge_evaluation(const EvaluationData& data, const Settings& settings, const EvaluateOptions& options,
+                            const Progress& progress = {});
+
+// Both together.
+Evaluation evaluate(const Dataset& dataset, const Settings& settings, const EvaluateOptions& options,
+                    const Progress& progress = {});
+Evaluation evaluate_across(const Dataset& train, const Dataset& test, const Settings& settings,
+                           const EvaluateOptions& options, const Progress& progress = {});
+
+}  // namespace spincat

@@ -1,0 +1,198 @@
+#include "spincat/evaluate/tested_objects.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <variant>
+
+#include "spincat/describe/describe_tasks.h"
+#include "spincat/describe/packed_limits.h"
+#include "spincat/describe/rank_problems.h"
+#include "spincat/error.h"
+#include "spincat/geometry/random.h"
+#include "spincat/io/read_object.h"
+#include "spincat/parallel/packing.h"
+#include "spincat/parallel/task_farm.h"
+#include "spincat/prepare/surface_samples.h"
+#include "spincat/settings/settings_json.h"
+
+namespace spincat {
+namespace {
+
+constexpr std::uint64_t kTestFormPurpose = 101;  // of derive_seed
+
+Object turned(Object object, Random& random) {
+  // Four normal numbers are a random direction in four dimensions: evenly distributed unit quaternions.
+  const double w = random.normal();
+  const double x = random.normal();
+  const double y = random.normal();
+  const double z = random.normal();
+  const Eigen::Matrix3d turn = Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix();
+  const auto turn_all = [&](std::vector<Vec3>& vectors) {
+    for (Vec3& v : vectors) {
+      v = turn * v;
+    }
+  };
+  if (Mesh* mesh = std::get_if<Mesh>(&object)) {
+    turn_all(mesh->vertices);
+  } else {
+    auto& cloud = std::get<PointCloud>(object);
+    turn_all(cloud.points);
+    turn_all(cloud.normals);
+    if (cloud.sensor) {
+      cloud.sensor = turn * *cloud.sensor;
+    }
+  }
+  return object;
+}
+
+double diameter(const std::vector<Vec3>& points) {
+  Eigen::AlignedBox3d bounds;
+  for (const Vec3& p : points) {
+    bounds.extend(p);
+  }
+  double furthest = 0.0;
+  for (const Vec3& p : points) {
+    furthest = std::max(furthest, (p - bounds.center()).norm());
+  }
+  return 2.0 * furthest;
+}
+
+PointCloud noisy_cloud(const Object& object, const TestOptions& options, Random& random) {
+  PointCloud cloud;
+  if (const Mesh* mesh = std::get_if<Mesh>(&object)) {
+    if (!has_area(*mesh)) {
+      throw InputError("has no area to draw a cloud's points from");
+    }
+    cloud.points = surface_samples(*mesh, static_cast<std::size_t>(options.cloud_points), random).positions;
+  } else {
+    cloud.points = std::get<PointCloud>(object).points;
+    cloud.sensor = std::get<PointCloud>(object).sensor;
+  }
+  const double amount = options.noise * diameter(cloud.points);
+  for (Vec3& p : cloud.points) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      p[axis] += amount * random.normal();
+    }
+  }
+  return cloud;
+}
+
+}  // namespace
+
+void TestOptions::validate() const {
+  if (!(noise >= 0.0 && noise <= 1.0)) {
+    throw InputError(fmt::format("noise {} is out of range (0 to 1)", noise));
+  }
+  if (cloud_points < 1 || cloud_points > 10'000'000) {
+    throw InputError(fmt::format("number of cloud points {} is out of range (1 to 10000000)", cloud_points));
+  }
+}
+
+Object in_test_form(const Object& object, const TestOptions& options, std::uint64_t seed) {
+  Random random(seed);
+  switch (options.form) {
+    case TestForm::turned:
+      return turned(object, random);
+    case TestForm::cloud:
+      return noisy_cloud(object, options, random);
+    case TestForm::as_is:
+      break;
+  }
+  return object;
+}
+
+std::span<const float> TestTable::features_of(std::uint32_t object, std::uint32_t view) const {
+  const auto row = static_cast<Eigen::Index>(object) * rows_per_object + view;
+  return {features.row(row).data(), static_cast<std::size_t>(features.cols())};
+}
+
+namespace {
+
+// One object, in the form it is tested in.
+struct TestedTask {
+  std::uint64_t seed;
+  std::string_view file;
+};
+
+Described describe_task(const TestedTask& task, const Settings& settings, const TestOptions& options) {
+  const auto read = [&] {
+    return in_test_form(read_listed_object(std::filesystem::path(task.file), options.limits), options, task.seed);
+  };
+  return describe_object(read, settings.tested_rows(), [&](const Object& object, int view, StageSeconds& seconds) {
+    return describe(object, settings, view, &seconds);
+  });
+}
+
+Work tested_work(const Settings& settings, const TestOptions& options) {
+  return [settings, options](std::string_view bytes) {
+    Unpacker fields(bytes);
+    const auto seed = fields.get<std::uint64_t>();
+    return pack(describe_task({seed, fields.rest()}, settings, options));
+  };
+}
+
+}  // namespace
+
+Work make_tested_work(std::string_view context) {
+  Unpacker fields(context);
+  const Settings settings = settings_from_json(nlohmann::json::parse(fields.get_text()));
+  TestOptions options;
+  options.form = fields.get<TestForm>();
+  options.noise = fields.get<double>();
+  options.cloud_points = fields.get<int>();
+  options.limits = unpack_limits(fields);
+  return throwing_problems(tested_work(settings, options));
+}
+
+TestTable describe_tested(std::span<const DatasetObject> objects, std::size_t feature_length, const Settings& settings,
+                          const TestOptions& options, TaskFarm& farm, const Progress& progress) {
+  TestTable table;
+  table.objects.assign(objects.begin(), objects.end());
+  table.rows_per_object = static_cast<std::uint32_t>(settings.tested_rows());
+  table.features.setZero(static_cast<Eigen::Index>(objects.size() * table.rows_per_object),
+                         static_cast<Eigen::Index>(feature_length));
+  table.problems.resize(objects.size());
+  const std::uint64_t stream = derive_seed(settings.seed, kTestFormPurpose);
+  Job job;
+  job.kind = kTestedTasks;
+  job.context = [&](Packer& packer) {
+    packer.add(settings_to_json(settings).dump()).add(options.form).add(options.noise).add(options.cloud_points);
+    pack_limits(packer, options.limits);
+  };
+  job.work = tested_work(settings, options);
+  job.is_worth_keeping = has_no_problem;
+  job.tasks = objects.size();
+  job.task = [&](std::size_t i) { return Packer().add(derive_seed(stream, i)).take() + objects[i].file.string(); };
+  job.deliver = [&](std::size_t i, const std::string& result) {
+    const Described described = unpack_described(result);
+    table.seconds += described.seconds;
+    table.problems[i] = described.problem;
+    if (described.features.empty()) {
+      return;
+    }
+    table.kinds.add(described.kind);
+    auto row = static_cast<Eigen::Index>(i * table.rows_per_object);
+    for (const FeatureVector& found : described.features) {
+      if (found.values.size() != feature_length) {
+        table.problems[i] =
+            fmt::format("gives {} features where the judges expect {}", found.values.size(), feature_length);
+        return;
+      }
+      std::ranges::copy(found.values, table.features.row(row++).data());
+    }
+  };
+  farm.run(job, [&](std::size_t done) {
+    if (progress) {
+      progress("describing test objects", done, objects.size());
+    }
+  });
+  return table;
+}
+
+}  // namespace spincat

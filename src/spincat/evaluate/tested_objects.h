@@ -1,0 +1,70 @@
+// Objects that are only tested: described as they are, turned, or as noisy clouds.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "spincat/dataset/dataset.h"
+#include "spincat/describe/describe.h"
+#include "spincat/describe/kinds.h"
+#include "spincat/describe/progress.h"
+#include "spincat/geometry/object.h"
+#include "spincat/io/read_limits.h"
+#include "spincat/judge/gram.h"
+#include "spincat/parallel/task.h"
+#include "spincat/settings/settings.h"
+
+namespace spincat {
+
+// The name of this kind of work, as ranks tell each other.
+inline constexpr const char* kTestedTasks = "feature vectors of test objects";
+
+class TaskFarm;
+
+// How objects are shown to the judges.
+enum class TestForm {
+  as_is,
+  turned,  // turned at random, evenly over all rotations
+  cloud,   // points drawn evenly from the surface, without normals, with noise; clouds stay clouds and only get noise
+};
+
+struct TestOptions {
+  TestForm form = TestForm::as_is;
+  double noise = 0.01;      // of clouds: standard deviation along each axis, in diameters of the object, 0 to 1; the
+                            // diameter is twice the distance of the furthest point from the centre of the bounding box
+  int cloud_points = 2048;  // of clouds, 1 to 10,000,000
+  ReadLimits limits = {};   // while reading the objects
+
+  // Throws InputError naming the option, its value and the allowed range.
+  void validate() const;
+};
+
+// The object in the form it is tested in. Deterministic: the same for the same object, options and seed. Throws
+// InputError when a mesh without area is to become a cloud.
+Object in_test_form(const Object& object, const TestOptions& options, std::uint64_t seed);
+
+struct TestTable {
+  std::vector<DatasetObject> objects;  // N, as they were handed in
+  std::uint32_t rows_per_object = 1;   // one, or all views of it
+  FeatureMatrix features;              // N rows_per_object x D; the rows of objects with a problem are zero
+  std::vector<std::string> problems;   // N: why an object could not be described; empty where it could
+  KindCounts kinds;                    // of those that could be read, in the form in which they are tested
+  StageSeconds seconds;                // added up over threads
+
+  std::span<const float> features_of(std::uint32_t object, std::uint32_t view = 0) const;
+};
+
+// Reads and describes objects, without copies, or as many views of them as settings.tested_rows() says; those that
+// cannot be read or do not give `feature_length` numbers get their reason instead. Each object is altered by a seed of
+// its own, made from settings.seed and its place. The result does not depend on the number of threads and ranks of the
+// farm.
+TestTable describe_tested(std::span<const DatasetObject> objects, std::size_t feature_length, const Settings& settings,
+                          const TestOptions& options, TaskFarm& farm, const Progress& progress);
+
+// Its work, for other ranks.
+Work make_tested_work(std::string_view context);
+
+}  // namespace spincat

@@ -1,0 +1,350 @@
+// Polygon File Format: a header that describes elements and their properties, then their values as text or as bytes.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "spincat/error.h"
+#include "spincat/geometry/object.h"
+#include "spincat/io/formats/binary.h"
+#include "spincat/io/formats/formats.h"
+#include "spincat/io/formats/object_builder.h"
+#include "spincat/io/read_object.h"
+#include "spincat/io/text_cursor.h"
+
+namespace spincat::io {
+namespace {
+
+struct Property {
+  std::string name;
+  ScalarType type;                        // of a list: of its values
+  std::optional<ScalarType> length_type;  // lists only
+};
+
+struct Element {
+  std::string name;
+  std::uint64_t count;
+  std::vector<Property> properties;
+};
+
+enum class Encoding { ascii, little_endian, big_endian };
+
+struct Header {
+  Encoding encoding = Encoding::ascii;
+  std::vector<Element> elements;
+
+  const Element* find(std::string_view name) const {
+    const auto found = std::find_if(elements.begin(), elements.end(), [&](const Element& e) { return e.name == name; });
+    return found == elements.end() ? nullptr : &*found;
+  }
+};
+
+ScalarType scalar_type(TextCursor& text) {
+  struct TypeName {
+    std::string_view name, sized_name;
+    ScalarType type;
+  };
+  static constexpr std::array types{
+      TypeName{"char", "int8", ScalarType::int8},        TypeName{"uchar", "uint8", ScalarType::uint8},
+      TypeName{"short", "int16", ScalarType::int16},     TypeName{"ushort", "uint16", ScalarType::uint16},
+      TypeName{"int", "int32", ScalarType::int32},       TypeName{"uint", "uint32", ScalarType::uint32},
+      TypeName{"float", "float32", ScalarType::float32}, TypeName{"double", "float64", ScalarType::float64},
+  };
+  const std::string_view word = text.word();
+  for (const TypeName& type : types)
+    if (word == type.name || word == type.sized_name) return type.type;
+  text.fail("unknown type " + in_quotes(word) + " of a property");
+}
+
+Encoding read_encoding(TextCursor& text) {
+  const std::string_view word = text.word();
+  if (word == "ascii") return Encoding::ascii;
+  if (word == "binary_little_endian") return Encoding::little_endian;
+  if (word == "binary_big_endian") return Encoding::big_endian;
+  text.fail("unknown format " + in_quotes(word) + "; expected ascii, binary_little_endian or binary_big_endian");
+}
+
+Property read_property(TextCursor& text) {
+  Property property;
+  if (text.peek() == "list") {
+    text.word();
+    property.length_type = scalar_type(text);
+  }
+  property.type = scalar_type(text);
+  property.name = text.word();
+  return property;
+}
+
+// Each is compared with all before it.
+constexpr std::size_t most_elements = 100;
+
+// Leaves the cursor behind the line of end_header.
+Header read_header(TextCursor& text) {
+  if (text.word() != "ply") text.fail("expected the first line 'ply'");
+  Header header;
+  bool formatted = false;
+  for (text.skip_line(); text.word_follows(); text.skip_line()) {
+    const std::string_view keyword = text.word();
+    if (keyword == "format") {
+      header.encoding = read_encoding(text);
+      formatted = true;
+    } else if (keyword == "element") {
+      const std::string name(text.word());
+      if (header.find(name) != nullptr) text.fail("a second element called " + in_quotes(name));
+      if (header.elements.size() == most_elements) text.fail(fmt::format("more than {} elements", most_elements));
+      header.elements.push_back({name, text.count("the number of elements"), {}});
+    } else if (keyword == "property") {
+      if (header.elements.empty()) text.fail("a property before the first element");
+      header.elements.back().properties.push_back(read_property(text));
+    } else if (keyword == "end_header") {
+      if (!formatted) text.fail("the header has no line 'format'");
+      text.skip_line();
+      return header;
+    } else if (keyword != "comment" && keyword != "obj_info") {
+      text.fail("unknown word " + in_quotes(keyword) + " in the header");
+    }
+  }
+  text.fail("the file ends within the header, before 'end_header'");
+}
+
+// Where values come from: both kinds of body have next(), skip(), bytes_left(), least_size() and fail().
+class TextBody {
+ public:
+  explicit TextBody(TextCursor text) : text_(text) {}
+
+  double next(ScalarType) {
+    text_.word_follows();
+    return text_.number("a number");
+  }
+  void skip(std::uint64_t count, ScalarType type) {
+    for (std::uint64_t i = 0; i < count; ++i) next(type);
+  }
+  std::uint64_t bytes_left() const { return text_.bytes_left() + 1; }  // the last line end may be missing
+  static std::uint64_t least_size(ScalarType) { return 2; }            // a digit and a blank
+  void begin_row(const Element&, std::uint64_t) {}
+  [[noreturn]] void fail(const std::string& problem) const { text_.fail(problem); }
+
+ private:
+  TextCursor text_;
+};
+
+class BinaryBody {
+ public:
+  BinaryBody(std::string_view bytes, std::endian order) : bytes_(bytes), order_(order) {}
+
+  double next(ScalarType type) {
+    const char* at = bytes_.data();
+    skip(1, type);
+    return load_scalar(at, type, order_);
+  }
+  void skip(std::uint64_t count, ScalarType type) {
+    if (count > bytes_.size() / size_of(type)) fail("the file ends here");
+    bytes_.remove_prefix(count * size_of(type));
+  }
+  std::uint64_t bytes_left() const { return bytes_.size(); }
+  static std::uint64_t least_size(ScalarType type) { return size_of(type); }
+  void begin_row(const Element& element, std::uint64_t row) {
+    element_ = &element;
+    row_ = row;
+  }
+  [[noreturn]] void fail(const std::string& problem) const {
+    throw InputError(fmt::format("{} {}: {}", shown(element_->name), row_, problem));
+  }
+
+ private:
+  std::string_view bytes_;
+  std::endian order_;
+  const Element* element_ = nullptr;
+  std::uint64_t row_ = 0;
+};
+
+bool is_corner_list(const Property& property) {
+  return property.length_type && (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+// The six properties of a vertex that matter: x, y, z, nx, ny, nz.
+class VertexColumns {
+ public:
+  explicit VertexColumns(const Element& element) {
+    static constexpr std::array<std::string_view, 6> names{"x", "y", "z", "nx", "ny", "nz"};
+    std::array<bool, 6> found{};
+    for (const Property& property : element.properties) {
+      const auto* name = std::find(names.begin(), names.end(), property.name);
+      const auto column = static_cast<std::size_t>(name - names.begin());
+      const bool wanted = column < names.size() && !property.length_type && !found[column];
+      if (wanted) found[column] = true;
+      columns_.push_back(wanted ? column : unused);
+    }
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!found[i]) throw InputError(fmt::format("its vertices have no property '{}'", names[i]));
+    has_normals_ = found[3] && found[4] && found[5];
+  }
+
+  // Where the value of a property belongs; a place that nobody reads for the others.
+  std::size_t column(std::size_t property) const { return columns_[property]; }
+  bool has_normals() const { return has_normals_; }
+
+  static constexpr std::size_t unused = 6;
+
+ private:
+  std::vector<std::size_t> columns_;
+  bool has_normals_ = false;
+};
+
+template <typename Body>
+class PlyReader {
+ public:
+  PlyReader(const Header& header, Body body, const ReadLimits& limits)
+      : header_(header), body_(std::move(body)), object_(limits) {}
+
+  Object read() {
+    const Element* vertex = header_.find("vertex");
+    const Element* face = header_.find("face");
+    if (vertex != nullptr) vertices_ = vertex->count;
+    object_.check_vertices(vertices_);
+    if (vertices_ > 0) check_properties(*vertex);
+    is_mesh_ = face != nullptr && face->count > 0 &&
+               std::any_of(face->properties.begin(), face->properties.end(), is_corner_list);
+    if (const Element* strips = header_.find("tristrips"); strips != nullptr && strips->count > 0)
+      throw InputError("holds triangle strips (tristrips); spincat reads PLY files with faces only");
+    for (const Element& element : header_.elements) read_element(element);
+    return object_.finish();
+  }
+
+ private:
+  // Rows without properties take no bytes and are passed over: vertices that are never read must not be counted on.
+  static void check_properties(const Element& vertex) { static_cast<void>(VertexColumns(vertex)); }
+
+  void read_element(const Element& element) {
+    if (element.properties.empty()) return;
+    body_.begin_row(element, 0);
+    std::uint64_t least_row = 0;
+    for (const Property& property : element.properties)
+      least_row += Body::least_size(property.length_type.value_or(property.type));
+    if (element.count > body_.bytes_left() / least_row)  // NOLINT(clang-analyzer-core.DivideZero): each has a size
+      body_.fail(fmt::format("announces {} x {}, more than fit into the rest of the file", element.count,
+                             shown(element.name)));
+    if (element.name == "vertex") {
+      read_vertices(element);
+    } else if (element.name == "face") {
+      read_faces(element);
+    } else {
+      skip_rows(element);
+    }
+  }
+
+  void read_vertices(const Element& element) {
+    const VertexColumns columns(element);
+    object_.expect_vertices(element.count);
+    for (std::uint64_t row = 0; row < element.count; ++row) {
+      body_.begin_row(element, row);
+      std::array<double, VertexColumns::unused + 1> values{};
+      for (std::size_t i = 0; i < element.properties.size(); ++i) {
+        const Property& property = element.properties[i];
+        if (property.length_type) {
+          skip_list(property);
+        } else {
+          values[columns.column(i)] = body_.next(property.type);
+        }
+      }
+      add_vertex({values[0], values[1], values[2]}, {values[3], values[4], values[5]}, columns.has_normals());
+    }
+  }
+
+  void add_vertex(const Vec3& position, const Vec3& normal, bool has_normal) {
+    if (is_mesh_) {
+      if (!position.allFinite()) body_.fail("a coordinate is not finite");
+      object_.add_vertex(position);
+    } else if (has_normal) {
+      object_.add_point(position, normal);
+    } else {
+      object_.add_point(position);
+    }
+  }
+
+  void read_faces(const Element& element) {
+    reserve_triangles(element);
+    for (std::uint64_t row = 0; row < element.count; ++row) {
+      body_.begin_row(element, row);
+      for (const Property& property : element.properties) {
+        if (is_corner_list(property)) {
+          read_face(property);
+        } else {
+          skip_property(property);
+        }
+      }
+    }
+  }
+
+  // Indices of one byte make many triangles of few bytes: growing by doubling would cost 36 times the file.
+  void reserve_triangles(const Element& element) {
+    const bool tiny = std::any_of(element.properties.begin(), element.properties.end(), [](const Property& property) {
+      return is_corner_list(property) && Body::least_size(property.type) == 1;
+    });
+    object_.reserve_triangles(tiny ? body_.bytes_left() : element.count);
+  }
+
+  void read_face(const Property& property) {
+    const std::uint64_t corners = list_length(property);
+    object_.begin_face();
+    for (std::uint64_t i = 0; i < corners; ++i) {
+      const double index = body_.next(property.type);
+      if (!(index >= 0 && index < static_cast<double>(vertices_)) || index != std::floor(index))
+        body_.fail(fmt::format("vertex index {} is out of range ({} vertices)", index, vertices_));
+      object_.add_corner(static_cast<std::uint32_t>(index));
+    }
+  }
+
+  std::uint64_t list_length(const Property& property) {
+    const double length = body_.next(*property.length_type);
+    const std::uint64_t most = body_.bytes_left() / Body::least_size(property.type);
+    if (!(length >= 0 && length <= static_cast<double>(most)) || length != std::floor(length))
+      body_.fail(fmt::format("a list of {} values does not fit into the rest of the file", length));
+    return static_cast<std::uint64_t>(length);
+  }
+
+  void skip_list(const Property& property) { body_.skip(list_length(property), property.type); }
+
+  void skip_property(const Property& property) {
+    if (property.length_type) {
+      skip_list(property);
+    } else {
+      body_.skip(1, property.type);
+    }
+  }
+
+  void skip_rows(const Element& element) {
+    for (std::uint64_t row = 0; row < element.count; ++row) {
+      body_.begin_row(element, row);
+      for (const Property& property : element.properties) skip_property(property);
+    }
+  }
+
+  const Header& header_;
+  Body body_;
+  ObjectBuilder object_;
+  std::uint64_t vertices_ = 0;
+  bool is_mesh_ = false;
+};
+
+}  // namespace
+
+Object read_ply(std::string_view bytes, const ReadLimits& limits) {
+  TextCursor text(bytes, {.hash_comments = false});
+  const Header header = read_header(text);
+  if (header.encoding == Encoding::ascii) return PlyReader(header, TextBody(text), limits).read();
+  const std::string_view body = bytes.substr(bytes.size() - text.bytes_left());
+  const std::endian order = header.encoding == Encoding::little_endian ? std::endian::little : std::endian::big;
+  return PlyReader(header, BinaryBody(body, order), limits).read();
+}
+
+}  // namespace spincat::io

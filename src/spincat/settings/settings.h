@@ -1,0 +1,76 @@
+// The settings of the whole road from an object to a name.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "spincat/geometry/up_axis.h"
+#include "spincat/judge/settings.h"
+#include "spincat/prepare/prepare.h"
+#include "spincat/spin/params.h"
+
+namespace spincat {
+
+// The unit in which a bin size is given.
+enum class BinSizeUnit {
+  absolute,    // the unit of the object's file
+  resolution,  // mesh resolutions (Johnson)
+  relative,    // the object's radius: the distance of its furthest point from the centre of its bounding box
+};
+
+// What the judges are taught for.
+enum class TaughtFor {
+  meshes,  // objects as the training files hold them
+  any,     // point clouds as well, exact or noisy: each training object is shown as clouds besides
+  views,   // what a depth camera sees: each training object is shown as rendered views (camera/render/views.h) alone
+};
+
+// Everything that decides about the result, and nothing else (no threads, no file names). A model keeps a copy, so that
+// classifying repeats exactly what training did.
+struct Settings {
+  std::string preset = "default";
+  PrepareSettings prepare;
+  SpinImageParams spin;  // spin.bin_size in the unit below
+  BinSizeUnit bin_size_unit = BinSizeUnit::relative;
+  std::string encoding = "pooled-pyramid";
+  // The feature vector is made of parts, joined and scaled to length 1: the encoding of the spin images of the points
+  // that prepare.surface says, and those that are switched on here.
+  bool plain_samples = false;  // the same of points drawn evenly from all faces, hidden ones too
+  UpAxis up = UpAxis::none;    // the same with spin images whose axes all point up, instead of along the normals; with
+                               // views the axis of the models (clouds are upright: z), and not none
+  int draws = 1;               // every part is the mean over so many draws of points, 1 to 100
+  int words = 256;             // of the codebook that the bag-of-features encoding learns, 2 to 65,536
+  JudgeSettings judge;
+  int copies = 6;                            // stretched copies of each training object, 0 to 100
+  TaughtFor taught_for = TaughtFor::meshes;  // any: besides, as many stretched copies turned into clouds
+  int views = 12;                            // of each training object where taught_for says so, 1 to 1,000
+  double stretch = 0.2;                      // each axis of a copy is stretched by exp(U(-stretch, stretch)), 0 to 2
+  std::uint64_t seed = 1;                    // of every random choice
+
+  // How many parts a feature vector has, all of one length.
+  int parts() const { return 1 + (plain_samples ? 1 : 0) + (up != UpAxis::none ? 1 : 0); }
+
+  // How many feature vectors a training object gives: its own and its copies', or its views'.
+  int training_rows() const {
+    return taught_for == TaughtFor::views ? views : 1 + copies * (taught_for == TaughtFor::any ? 2 : 1);
+  }
+
+  // How many of them show the object as it may be met, the first ones: itself alone, or all views.
+  int tested_rows() const { return taught_for == TaughtFor::views ? views : 1; }
+
+  // Throws InputError naming the field, its value and the allowed range.
+  void validate() const;
+};
+
+// Named settings: "default" (the best we know; docs/encoding.md) and "paper" (as the paper describes it: 100 random
+// vertices, bilinear images of 20 x 20, concatenated). Throws InputError that lists the names when there is none.
+Settings preset(std::string_view name);
+const std::vector<std::string>& preset_names();
+
+// The settings changed to what suits judges that will look through a depth camera (docs/camera.md), taught by so many
+// views of each object.
+Settings taught_by_views(Settings settings, int views);
+
+}  // namespace spincat

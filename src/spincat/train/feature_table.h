@@ -1,0 +1,64 @@
+// The feature vectors of a whole data set.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "spincat/dataset/dataset.h"
+#include "spincat/describe/describe.h"
+#include "spincat/describe/division.h"
+#include "spincat/describe/kinds.h"
+#include "spincat/describe/progress.h"
+#include "spincat/judge/gram.h"
+#include "spincat/settings/settings.h"
+
+namespace spincat {
+
+class TaskFarm;
+struct TeachingPlan;
+
+// Objects that could be read, and their features: row i * rows_per_object is object i itself, the rows after it are its
+// training copies; or all rows are views of it.
+struct FeatureTable {
+  std::vector<DatasetObject> objects;   // N
+  std::vector<std::string> categories;  // n, all of the data set
+  std::vector<SkippedObject> skipped;   // the data set's, and those that could not be read, sorted by file
+  FeatureMatrix features;               // N rows_per_object x D
+  std::vector<std::uint32_t> blocks;    // of columns that belong together; adds up to D
+  std::uint32_t local_size = 0;         // > 0: columns are local features of so many numbers, to be counted by words
+  std::uint32_t words = 0;              // of the codebook that is learned for them
+  std::uint64_t seed = 1;               // of that learning
+  std::uint32_t rows_per_object = 1;
+  std::uint32_t tested_rows = 1;  // of these, the first ones: what may be tested, the object itself or its views
+  std::uint32_t parts = 1;        // of a row, all of one length
+  std::string encoding;
+  KindCounts kinds;                         // of the objects
+  StageSeconds seconds;                     // added up over threads
+  std::vector<std::uint32_t> described_as;  // N where all ranks of the farm keep the rows: which objects of the data
+                                            // set these are; else empty
+  std::uint64_t number = 0;                 // by which these ranks know the rows again; 0 where they do not keep them
+
+  std::vector<std::uint32_t> object_labels() const;  // N
+  std::vector<std::uint32_t> object_counts() const;  // n: objects of each category, copies not counted
+  std::vector<std::uint32_t> row_labels() const;     // one for each row
+  // All rows of the given objects: what judges are taught on. A copy never leaves its object.
+  std::vector<std::uint32_t> rows_of(std::span<const std::uint32_t> objects) const;
+  // Of the object itself, or of its view number `view`.
+  std::span<const float> features_of(std::uint32_t object, std::uint32_t view = 0) const;
+};
+
+// Reads and describes every object of the data set once, with its copies, on all threads and ranks of the farm. The
+// result does not depend on these, nor on the division. Where the plan makes it worth it (sharing.h), other ranks get
+// the features as they come.
+// Objects that cannot be read are left out and listed with their reason; with `strict` the first of them is thrown as
+// an InputError instead. Throws InputError when fewer than two categories are left.
+FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, bool strict, TaskFarm& farm,
+                              Division division, const TeachingPlan& plan, const Progress& progress);
+
+// The same on so many threads of this process.
+FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, bool strict, int threads,
+                              const Progress& progress);
+
+}  // namespace spincat

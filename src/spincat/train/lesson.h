@@ -1,0 +1,58 @@
+// Private to the library, not installed: what the judges of one training have in common.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "spincat/encode/codebook.h"
+#include "spincat/judge/judge_list.h"
+#include "spincat/train/feature_table.h"
+
+namespace spincat {
+
+// Whether inner products of so many rows, in so many matrices, are worth keeping: below a gigabyte (16,384 rows with
+// one matrix).
+bool may_share_gram(Eigen::Index rows, Eigen::Index matrices);
+
+// A training on some objects of a table and their copies. Where the table holds local features, their codebook is
+// learned first, from these objects alone. Judges may be taught by several threads at once. Deterministic.
+class Lesson {
+ public:
+  // `gram` is that of the whole table or empty. What is passed by reference must outlive this object.
+  // Precondition: every category has an object among them.
+  Lesson(const FeatureTable& table, const SharedGram& gram, std::span<const std::uint32_t> objects,
+         const JudgeSettings& settings);
+  Lesson(const Lesson&) = delete;
+  Lesson& operator=(const Lesson&) = delete;
+
+  // The judges of the given pairs.
+  std::vector<Judge> teach(std::span<const CategoryPair> pairs) const;
+
+  // Whether judges can do without their support vectors: those of a linear kernel.
+  bool folds() const { return settings_.kernel == KernelKind::linear; }
+  // Precondition of both: it folds.
+  FoldedJudge fold(const Judge& judge) const { return training_->fold(judge); }
+  JudgeList unfilled_list(std::size_t judges) const;
+
+  // All judges, put together.
+  JudgeList list(std::span<const Judge> judges) const;
+
+  // What some judges say of other objects of the table: a row for each object, or for each of its views.
+  FeatureMatrix margins(std::span<const Judge> judges, std::span<const std::uint32_t> objects) const;
+
+ private:
+  const FeatureMatrix& learn_words(std::span<const std::uint32_t> rows);
+
+  const FeatureTable& table_;
+  const bool has_gram_;
+  const JudgeSettings settings_;
+  Codebook codebook_;
+  FeatureMatrix counted_;  // what the codebook counts in the rows of the table
+  SharedGram counted_gram_;
+  std::optional<TrainingSet> training_;
+};
+
+}  // namespace spincat

@@ -1,0 +1,17 @@
+// Private to the library, not installed: familiarity with the objects of a table.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "spincat/judge/familiarity.h"
+#include "spincat/train/feature_table.h"
+
+namespace spincat {
+
+// The given objects as familiarity sees them: the first part of their features (what is seen from outside), without
+// copies (of views the first four): strangers stand out in it more than in all parts together (docs/accuracy.md). Empty
+// where the table has none to compare objects by.
+Familiarity familiarity_of(const FeatureTable& table, std::span<const std::uint32_t> objects);
+
+}  // namespace spincat

@@ -1,0 +1,49 @@
+#include "spincat/train/train.h"
+
+#include <numeric>
+#include <utility>
+
+#include "spincat/describe/stopwatch.h"
+#include "spincat/parallel/task_farm.h"
+#include "spincat/train/feature_table.h"
+#include "spincat/train/sharing.h"
+#include "spincat/train/table_familiarity.h"
+#include "spincat/train/teacher.h"
+
+namespace spincat {
+
+TrainResult train(const Dataset& dataset, const Settings& settings, const TrainOptions& options,
+                  const Progress& progress) {
+  // Describe every object and its stretched copies once.
+  OwnFarm own(options.threads);
+  TaskFarm& farm = options.farm != nullptr ? *options.farm : own.farm();
+  const TeachingPlan plan = plan_of(1, true);
+  const FeatureTable table =
+      describe_dataset(dataset, settings, options.strict, farm, options.division, plan, progress);
+  std::vector<std::uint32_t> objects(table.objects.size());
+  std::iota(objects.begin(), objects.end(), 0U);
+
+  // Teach a judge for every pair of categories, and find out how far their votes can be trusted.
+  Stopwatch watch;
+  Teacher teacher(table, settings.judge, farm, plan, progress);
+  TrainResult result;
+  Model& model = result.model;
+  CalibratedJudges taught = teacher.teach_calibrated(objects, settings.seed, progress);
+  model.judges = std::move(taught.judges);
+  model.calibration = taught.calibration;
+  model.familiarity = familiarity_of(table, objects);
+
+  // Keep what classifying needs to repeat all of this.
+  model.settings = settings;
+  model.categories = table.categories;
+  model.kinds = table.kinds;
+  model.dataset = dataset.name;
+  model.made_by = "spincat " SPINCAT_VERSION;
+  model.object_counts = table.object_counts();
+  result.skipped = table.skipped;
+  result.seconds = table.seconds;
+  result.seconds.judge += watch.lap();
+  return result;
+}
+
+}  // namespace spincat

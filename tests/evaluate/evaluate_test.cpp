@@ -1,0 +1,306 @@
+// The protocols of evaluate; what they have in common is in train_test.cpp.
+#include "spincat/evaluate/evaluate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+#include <variant>
+
+#include "spincat/dataset/parts.h"
+#include "spincat/error.h"
+#include "spincat/parallel/journal.h"
+#include "spincat/parallel/task_farm.h"
+#include "support/expect_error.h"
+#include "support/tiny_dataset.h"
+
+namespace spincat {
+namespace {
+
+using test::input_error;
+using test::TempDir;
+using test::tiny_settings;
+using Names = std::vector<std::string>;
+
+class Protocols : public testing::Test {
+ protected:
+  Protocols() { test::write_tiny_shapes(dir_, "shapes", 4); }
+
+  Dataset shapes() const { return read_dataset({dir_ / "shapes"}); }
+
+  TempDir dir_;
+};
+
+std::uint32_t all_of(const std::vector<std::uint32_t>& row) {
+  return std::accumulate(row.begin(), row.end(), 0U);
+}
+
+TEST_F(Protocols, LeaveOneOutTestsEachObjectOnce) {
+  EvaluateOptions options;
+  options.leave_one_out = true;
+  const Evaluation one = evaluate(shapes(), tiny_settings(), options);
+  options.threads = 3;
+  const Evaluation three = evaluate(shapes(), tiny_settings(), options);
+  EXPECT_EQ(one.protocol, Protocol::leave_one_out);
+  EXPECT_EQ(one.confusion, three.confusion);
+  ASSERT_EQ(one.confusion.size(), 3U);
+  for (const auto& row : one.confusion) {
+    EXPECT_EQ(all_of(row), 4U);
+  }
+  EXPECT_EQ(one.confusion, (Confusion{{4, 0, 0}, {0, 4, 0}, {0, 0, 4}}));  // three shapes that nobody mistakes
+  EXPECT_EQ(one.mean_class_rate.mean, 1.0);
+  EXPECT_EQ(one.overall_rate.interval.low, wilson_interval(12, 12).low);
+  EXPECT_EQ(one.category_rates[1].interval.low, wilson_interval(4, 4).low);
+  EXPECT_TRUE(one.seeds.empty());
+}
+
+TEST_F(Protocols, TellWhatEachObjectWasNamed) {
+  EvaluateOptions options;
+  options.splits = 5;
+  options.split_seeds = {1, 2};
+  const Evaluation found = evaluate(shapes(), tiny_settings(), options);
+  ASSERT_EQ(found.tested.size(), 12U);
+  Confusion counted(3, std::vector<std::uint32_t>(3, 0));
+  std::size_t names = 0;
+  for (std::size_t i = 0; i < found.tested.size(); ++i) {
+    const TestedObject& object = found.tested[i];
+    EXPECT_EQ(object.file, shapes().objects[i].file);
+    EXPECT_EQ(object.category, shapes().objects[i].category);
+    for (const std::uint32_t name : object.named) {
+      ++counted[object.category][name];
+      ++names;
+    }
+  }
+  EXPECT_EQ(names, 30U);  // one of each of three categories in each of ten splits
+  EXPECT_EQ(counted, found.confusion);
+}
+
+TEST_F(Protocols, LeaveOneOutCannotTestTheOnlyObjectOfItsCategory) {
+  Dataset dataset = shapes();
+  bool kept = false;
+  std::erase_if(dataset.objects, [&](const auto& object) { return object.category == 1 && std::exchange(kept, true); });
+  EvaluateOptions options;
+  options.leave_one_out = true;
+  const Evaluation found = evaluate(dataset, tiny_settings(), options);
+  EXPECT_EQ(found.object_counts, (std::vector<std::uint32_t>{4, 1, 4}));
+  EXPECT_EQ(all_of(found.confusion[1]), 0U);
+  EXPECT_EQ(all_of(found.confusion[0]) + all_of(found.confusion[2]), 8U);
+}
+
+TEST_F(Protocols, SeveralSeedsAreTheMeanOfEach) {
+  EvaluateOptions options;
+  options.splits = 2;
+  options.split_seeds = {3, 7, 9};
+  const Evaluation all = evaluate(shapes(), tiny_settings(), options);
+  EXPECT_EQ(all.splits, 2);
+  ASSERT_EQ(all.seeds.size(), 3U);
+  Confusion sum(3, std::vector<std::uint32_t>(3, 0));
+  double mean = 0.0;
+  for (std::size_t s = 0; s < 3; ++s) {
+    options.split_seeds = {all.seeds[s].seed};
+    const Evaluation one = evaluate(shapes(), tiny_settings(), options);
+    EXPECT_EQ(all.seeds[s].mean_class_rate.mean, one.mean_class_rate.mean);
+    EXPECT_EQ(all.seeds[s].overall_rate.deviation, one.overall_rate.deviation);
+    mean += one.mean_class_rate.mean / 3.0;
+    for (std::size_t i = 0; i < 9; ++i) {
+      sum[i / 3][i % 3] += one.confusion[i / 3][i % 3];
+    }
+  }
+  EXPECT_EQ(all.confusion, sum);
+  EXPECT_NEAR(all.mean_class_rate.mean, mean, 1e-12);
+}
+
+TEST_F(Protocols, SplitsFollowTheSeedUnlessTheyHaveTheirOwn) {
+  EvaluateOptions options;
+  options.splits = 3;
+  EXPECT_EQ(evaluate(shapes(), tiny_settings(), options).split_seeds, std::vector<std::uint64_t>{1});
+  Settings settings = tiny_settings();
+  settings.seed = 5;
+  EXPECT_EQ(evaluate(shapes(), settings, options).split_seeds, std::vector<std::uint64_t>{5});
+  options.split_seeds = {1};
+  EXPECT_EQ(evaluate(shapes(), settings, options).split_seeds, std::vector<std::uint64_t>{1});
+}
+
+TEST_F(Protocols, SmallCategoriesAreLeftOut) {
+  dir_.write("shapes/tube/0.off", test::off_text(test::cylinder(16, 1, 1, 1)));
+  dir_.write("shapes/tube/1.off", test::off_text(test::cylinder(16, 1, 1, 2)));
+  EvaluateOptions options;
+  options.splits = 1;
+  options.fewest_objects = 3;
+  const Evaluation found = evaluate(shapes(), tiny_settings(), options);
+  EXPECT_EQ(found.categories, (Names{"box", "cone", "spindle"}));
+  ASSERT_EQ(found.left_out.size(), 1U);
+  EXPECT_EQ(found.left_out[0].name, "tube");
+  options.fewest_objects = 5;
+  EXPECT_EQ(input_error([&] { evaluate(shapes(), tiny_settings(), options); }),
+            (dir_ / "shapes").string() + ": two or more categories are needed to learn from");
+}
+
+TEST_F(Protocols, AcrossTestsEveryObjectOfTheOtherDataSetOnce) {
+  test::write_tiny_shapes(dir_, "others", 2, 4);
+  dir_.write("others/tube/0.off", test::off_text(test::cylinder(16, 1, 1, 1)));
+  std::filesystem::remove_all(dir_ / "others/cone");
+  const Dataset others = read_dataset({dir_ / "others"});
+  const Evaluation found = evaluate_across(shapes(), others, tiny_settings(), {});
+  EXPECT_EQ(found.protocol, Protocol::across);
+  EXPECT_EQ(found.categories, (Names{"box", "spindle"}));
+  EXPECT_EQ(found.object_counts, (std::vector<std::uint32_t>{4, 4}));
+  EXPECT_EQ(found.test_object_counts, (std::vector<std::uint32_t>{2, 2}));
+  EXPECT_EQ(found.confusion, (Confusion{{2, 0}, {0, 2}}));
+  EXPECT_EQ(found.test_dataset, others.name);
+  EXPECT_NE(found.list_checksum, found.test_list_checksum);
+  ASSERT_EQ(found.left_out.size(), 2U);
+  EXPECT_EQ(found.left_out[0].name, "cone");
+  EXPECT_EQ(found.left_out[1].name, "tube");
+}
+
+TEST_F(Protocols, AcrossDoesNotDependOnThreadsAndSkipsWhatCannotBeRead) {
+  test::write_tiny_shapes(dir_, "others", 2, 4);
+  const auto broken = dir_.write("others/box/broken.off", "OFF 1 0 0\n");
+  const Dataset others = read_dataset({dir_ / "others"});
+  EvaluateOptions options;
+  const Evaluation one = evaluate_across(shapes(), others, tiny_settings(), options);
+  options.threads = 3;
+  const Evaluation three = evaluate_across(shapes(), others, tiny_settings(), options);
+  EXPECT_EQ(one.confusion, three.confusion);
+  EXPECT_EQ(one.test_object_counts, (std::vector<std::uint32_t>{2, 2, 2}));
+  ASSERT_EQ(one.skipped.size(), 1U);
+  EXPECT_EQ(one.skipped[0].file, broken);
+  options.strict = true;
+  EXPECT_EQ(input_error([&] {
+              evaluate_across(shapes(), others, tiny_settings(), options);
+            }).rfind(broken.string() + ": ", 0),
+            0U);
+}
+
+TEST_F(Protocols, TheOfficialSplitIsRespected) {
+  // A box among the cones of the test part: named rightly, it is an error of the data set's labels and counts as such.
+  test::write_tiny_shapes(dir_, "both/train", 3);
+  test::write_tiny_shapes(dir_, "both/test", 2, 4);
+  dir_.write("both/test/cone/box.off", test::off_text(test::tiny_shape("box", 6)));
+  const Dataset both = read_dataset({dir_ / "both"});
+  const Evaluation found = evaluate_across(training_part(both), testing_part(both), tiny_settings(), {});
+  EXPECT_EQ(found.object_counts, (std::vector<std::uint32_t>{3, 3, 3}));
+  EXPECT_EQ(found.confusion, (Confusion{{2, 0, 0}, {1, 2, 0}, {0, 0, 2}}));
+  EXPECT_NEAR(found.mean_class_rate.mean, (1.0 + 2.0 / 3.0 + 1.0) / 3.0, 1e-12);
+}
+
+TEST_F(Protocols, TurnedAndSampledObjectsAreNamedAsTheirMeshes) {
+  EvaluateOptions options;
+  options.splits = 2;
+  for (const TestForm form : {TestForm::turned, TestForm::cloud}) {
+    options.test.form = form;
+    options.test.noise = 0.001;
+    const Evaluation found = evaluate(shapes(), tiny_settings(), options);
+    EXPECT_EQ(all_of(found.confusion[0]), 2U);
+    EXPECT_GE(found.mean_class_rate.mean, 0.5) << static_cast<int>(form);
+  }
+}
+
+TEST_F(Protocols, ConfidenceIsMeasuredOnKnownAndUnknownObjects) {
+  EvaluateOptions options;
+  options.splits = 2;
+  EXPECT_FALSE(evaluate(shapes(), tiny_settings(), options).confidence.has_value());
+  options.strangers = {dir_.write("ball.off", test::off_text(test::icosphere(2))), dir_ / "absent.off"};
+  const Evaluation one = evaluate(shapes(), tiny_settings(), options);
+  options.threads = 3;
+  const Evaluation three = evaluate(shapes(), tiny_settings(), options);
+  ASSERT_TRUE(one.confidence && three.confidence);
+  EXPECT_EQ(one.confidence->strangers, 1U);
+  EXPECT_EQ(one.confidence->known_or_unknown, three.confidence->known_or_unknown);
+  EXPECT_EQ(one.confidence->mean_confidence, three.confidence->mean_confidence);
+  EXPECT_GT(one.confidence->mean_confidence, 0.0);
+  EXPECT_LT(one.confidence->mean_confidence, 1.0);
+  ASSERT_EQ(one.skipped.size(), 1U);
+  EXPECT_EQ(one.skipped[0].file, dir_ / "absent.off");
+}
+
+// An interrupted evaluation goes on after the splits that are judged.
+TEST_F(Protocols, AJournalKeepsSplitsForTheSameDataAndSettings) {
+  EvaluateOptions options;
+  options.splits = 6;
+  Settings settings = tiny_settings();
+  EvaluationData data = describe_for_evaluation(shapes(), settings, options);
+  const Evaluation expected = judge_evaluation(data, settings, options);
+  Journal journal(dir_ / "j", {"settings", "data"});
+  Evaluation found;
+  const auto resumed = [&](const Progress& progress = {}) {
+    OwnFarm own(2);
+    own.farm().use_journal(&journal);
+    EvaluateOptions with_farm = options;
+    with_farm.farm = &own.farm();
+    found = judge_evaluation(data, settings, with_farm, progress);
+    return own.farm().report().resumed;
+  };
+  const Progress stop = [](std::string_view stage, std::size_t done, std::size_t) {
+    if (stage == "judging splits" && done >= 3) {
+      throw RunError("killed");
+    }
+  };
+  EXPECT_THROW(resumed(stop), RunError);
+  const std::size_t judged = journal.size();
+  EXPECT_GE(judged, 3U);
+  EXPECT_EQ(resumed(), judged);
+  EXPECT_EQ(found.confusion, expected.confusion);
+  EXPECT_EQ(resumed(), 6U);
+  EXPECT_EQ(found.confusion, expected.confusion);
+  settings.judge.c *= 2.0;
+  EXPECT_EQ(resumed(), 0U);
+  data.table.features(0, 0) += 1.0F;
+  EXPECT_EQ(resumed(), 0U);
+  options.splits = 5;
+  EXPECT_EQ(resumed(), 0U);
+}
+
+TEST(InTestForm, TurnsRigidly) {
+  const Mesh box = test::box(1, 2, 3);
+  TestOptions options;
+  options.form = TestForm::turned;
+  const Mesh turned = std::get<Mesh>(in_test_form(box, options, 1));
+  EXPECT_EQ(turned.triangles, box.triangles);
+  EXPECT_GT((turned.vertices[7] - box.vertices[7]).norm(), 0.01);
+  for (std::size_t i = 0; i < 8; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_NEAR((turned.vertices[i] - turned.vertices[j]).norm(), (box.vertices[i] - box.vertices[j]).norm(), 1e-12);
+    }
+  }
+  EXPECT_NE(std::get<Mesh>(in_test_form(box, options, 2)).vertices[7], turned.vertices[7]);
+}
+
+TEST(InTestForm, SamplesTheSurfaceWithNoise) {
+  TestOptions options;
+  options.form = TestForm::cloud;
+  options.cloud_points = 500;
+  options.noise = 0.0;
+  const auto on_surface = std::get<PointCloud>(in_test_form(test::box(2, 2, 2), options, 1));
+  ASSERT_EQ(on_surface.points.size(), 500U);
+  EXPECT_TRUE(on_surface.normals.empty());
+  for (const Vec3& p : on_surface.points) {
+    EXPECT_NEAR(p.cwiseAbs().maxCoeff(), 1.0, 1e-12);
+  }
+  options.noise = 0.01;
+  const auto noisy = std::get<PointCloud>(in_test_form(test::box(2, 2, 2), options, 1));
+  double squares = 0.0;
+  for (std::size_t i = 0; i < 500; ++i) {
+    squares += (noisy.points[i] - on_surface.points[i]).squaredNorm() / 1500.0;
+  }
+  EXPECT_NEAR(std::sqrt(squares), 0.02 * std::sqrt(3.0), 0.003);  // the diameter is nearly twice the root of three
+}
+
+TEST(InTestForm, OptionsOutOfRangeAreRefused) {
+  TestOptions options;
+  options.noise = std::nan("");
+  EXPECT_EQ(input_error([&] { options.validate(); }), "noise nan is out of range (0 to 1)");
+  options = {};
+  options.cloud_points = 0;
+  EXPECT_EQ(input_error([&] { options.validate(); }), "number of cloud points 0 is out of range (1 to 10000000)");
+  options.form = TestForm::cloud;
+  Mesh flat;
+  flat.vertices = {Vec3(0, 0, 0), Vec3(1, 0, 0)};
+  EXPECT_EQ(input_error([&] { in_test_form(flat, options, 1); }), "has no area to draw a cloud's points from");
+}
+
+}  // namespace
+}  // namespace spincat

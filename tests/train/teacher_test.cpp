@@ -1,0 +1,254 @@
+// Teaching shared out over ranks (threads that play them) gives what one thread gives.
+#include "spincat/train/teacher.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <mutex>
+#include <numeric>
+#include <thread>
+#include <vector>
+
+#include "parallel/thread_ranks.h"
+#include "spincat/error.h"
+#include "spincat/evaluate/trial.h"
+#include "spincat/geometry/random.h"
+#include "spincat/parallel/task_server.h"
+#include "spincat/rank_work.h"
+#include "spincat/train/teach_tasks.h"
+#include "support/temp_dir.h"
+#include "support/tiny_dataset.h"
+
+namespace spincat {
+namespace {
+
+constexpr TeachingPlan kWorthSharing{1'000'000'000};  // so much work that a tiny table is sent
+
+// 30 objects of three categories, each with a copy; 24 features in blocks of 8, or as three local features.
+FeatureTable noisy_table(bool local) {
+  FeatureTable table;
+  table.categories = {"a", "b", "c"};
+  table.rows_per_object = 2;
+  table.blocks = {8, 8, 8};
+  table.local_size = local ? 8 : 0;
+  table.words = 4;
+  table.features.resize(60, 24);
+  Random random(5);
+  for (std::uint32_t i = 0; i < 30; ++i) {
+    table.objects.push_back({"object", i % 3, ""});
+    for (Eigen::Index row = 2 * i; row < 2 * i + 2; ++row) {
+      for (Eigen::Index d = 0; d < 24; ++d) {
+        table.features(row, d) = static_cast<float>(0.5 * random.normal() + (d % 8 == i % 3 ? 1.0 : 0.0));
+      }
+    }
+  }
+  return table;
+}
+
+std::vector<std::uint32_t> all_objects() {
+  std::vector<std::uint32_t> objects(30);
+  std::iota(objects.begin(), objects.end(), 0U);
+  return objects;
+}
+
+CalibratedJudges teach_on(TaskFarm& farm, const FeatureTable& table, const JudgeSettings& settings) {
+  Teacher teacher(table, settings, farm, kWorthSharing);
+  EXPECT_TRUE(teacher.is_shared());
+  return teacher.teach_calibrated(all_objects(), 7);
+}
+
+std::string packed(const Context& context) {
+  Packer packer;
+  context(packer);
+  return packer.take();
+}
+
+constexpr std::uint64_t kSharedAs = 7;
+
+std::string table_context(const FeatureTable& table) {
+  return packed([&](Packer& packer) { pack_table(table, kSharedAs, packer); });
+}
+
+std::string gram_context(std::uint64_t shared_as = kSharedAs) {
+  return packed([=](Packer& packer) {
+    pack_expected({shared_as, 0}, packer);
+    packer.add(KernelKind::linear);
+  });
+}
+
+// Ranks that serve as the command's do.
+class ServingRanks {
+ public:
+  explicit ServingRanks(int count) : wires_(std::make_shared<test::Wires>(count)), own_(wires_, 0) {
+    for (int r = 1; r < count; ++r) {
+      servers_.emplace_back([this, wires = wires_, r] {
+        test::ThreadCommunicator ranks(wires, r);
+        serve(ranks, noting_what_it_makes(), {[](int) { return 2; }, [] {}});
+      });
+    }
+  }
+  ~ServingRanks() { join(); }
+  Communicator& communicator() { return own_; }
+
+  // How often any rank has begun work of this kind. Wait for the end of the farm first.
+  int begun(const std::string& kind) {
+    join();
+    return begun_[kind];
+  }
+
+ private:
+  void join() {
+    for (std::thread& server : servers_) {
+      if (server.joinable()) {
+        server.join();
+      }
+    }
+  }
+
+  WorkFactory noting_what_it_makes() {
+    return [this, make = rank_work()](std::string_view kind, std::string_view context) {
+      RankWork work = make(kind, context);
+      const std::lock_guard lock(begun_mutex_);
+      ++begun_[std::string(kind)];
+      return work;
+    };
+  }
+
+  std::shared_ptr<test::Wires> wires_;
+  std::mutex begun_mutex_;
+  std::map<std::string, int> begun_;
+  test::ThreadCommunicator own_;
+  std::vector<std::thread> servers_;
+};
+
+class Teaching : public testing::TestWithParam<std::tuple<KernelKind, bool>> {};
+INSTANTIATE_TEST_SUITE_P(Kernels, Teaching,
+                         testing::Combine(testing::Values(KernelKind::linear, KernelKind::rbf), testing::Bool()));
+
+TEST_P(Teaching, DoesNotDependOnRanksAndThreads) {
+  const auto [kernel, local] = GetParam();
+  const FeatureTable table = noisy_table(local);
+  const JudgeSettings settings{kernel, default_c(kernel), true};
+  OwnFarm one(1);
+  Teacher alone(table, settings, one.farm(), kWorthSharing);
+  const auto [judges, calibration] = alone.teach_calibrated(all_objects(), 7);
+  ASSERT_EQ(judges.size(), 3U);
+  EXPECT_NE(calibration.slope, Calibration{}.slope);
+  for (const int count : {2, 4}) {
+    ServingRanks ranks(count);
+    TaskFarm farm(ranks.communicator());
+    farm.use_threads(2, 2);
+    const CalibratedJudges taught = teach_on(farm, table, settings);
+    EXPECT_EQ(taught.judges.weights, judges.weights);
+    EXPECT_EQ(taught.judges.support_vectors, judges.support_vectors);
+    EXPECT_EQ(taught.judges.bias, judges.bias);
+    EXPECT_EQ(taught.judges.supports, judges.supports);
+    EXPECT_EQ(taught.calibration.slope, calibration.slope);
+    EXPECT_EQ(taught.calibration.offset, calibration.offset);
+    EXPECT_EQ(taught.calibration.familiarity_slope, calibration.familiarity_slope);
+  }
+}
+
+// Ranks that were told the features as they came need no table, and one that was not takes no part.
+TEST(Teaching, RanksUseTheRowsTheyKept) {
+  FeatureTable table = noisy_table(false);
+  for (std::uint32_t i = 0; i < 30; ++i) {
+    table.described_as.push_back(2 * i + 1);  // every other file could not be read
+  }
+  RankState kept;
+  EXPECT_THROW(make_table_work(table_context(table), kept), RunError);
+  EXPECT_THROW(make_gram_work(gram_context(), kept), RunError);
+  kept.rows.emplace(60, 2);
+  for (std::uint32_t i = 0; i < 30; ++i) {
+    std::vector<FeatureBytes> values;
+    for (std::uint32_t copy = 0; copy < 2; ++copy) {
+      values.emplace_back(table.features_of(i, copy));
+    }
+    kept.rows->put(table.described_as[i], values);
+  }
+  make_table_work(table_context(table), kept);
+  EXPECT_EQ(kept.table.features, table.features);
+  EXPECT_EQ(kept.table.object_labels(), table.object_labels());
+  EXPECT_FALSE(kept.rows);
+  EXPECT_THROW(make_gram_work(gram_context(kSharedAs + 1), kept), RunError);  // it has missed another sharing
+  EXPECT_NO_THROW(make_gram_work(gram_context(), kept));
+}
+
+// As a sweep over settings of the judges does.
+TEST(Teaching, RanksKeepATableForAnotherTeacher) {
+  const test::TempDir dir;
+  test::write_tiny_shapes(dir, "shapes", 4);
+  constexpr int kRanks = 3;
+  ServingRanks ranks(kRanks);
+  {
+    TaskFarm farm(ranks.communicator());
+    const FeatureTable table = describe_dataset(read_dataset({dir / "shapes"}), test::tiny_settings(), false, farm,
+                                                Division::sums, kWorthSharing, {});
+    ASSERT_EQ(table.described_as.size(), 12U);
+    std::vector<std::uint32_t> objects(12);
+    std::iota(objects.begin(), objects.end(), 0U);
+    for (const double c : {3.0, 300.0}) {
+      const JudgeSettings settings{KernelKind::linear, c, true};
+      Teacher teacher(table, settings, farm, kWorthSharing);
+      OwnFarm one(1);
+      Teacher alone(table, settings, one.farm(), kWorthSharing);
+      EXPECT_EQ(teacher.teach(objects).weights, alone.teach(objects).weights);
+    }
+  }
+  for (const char* kind : {kTableTasks, kGramTasks, kJudgesTasks}) {
+    EXPECT_EQ(ranks.begun(kind), 2 * (kRanks - 1)) << kind;
+  }
+}
+
+TEST(Teaching, TinyTablesStayHere) {
+  const FeatureTable table = noisy_table(false);
+  ServingRanks ranks(2);
+  TaskFarm farm(ranks.communicator());
+  Teacher teacher(table, {}, farm, {});
+  EXPECT_FALSE(teacher.is_shared());
+  teacher.teach(all_objects());
+  EXPECT_EQ(farm.report().seconds, 0.0);
+}
+
+TEST(Trials, AreTheSameFromWhatARankKeeps) {
+  EvaluationData data;
+  data.table = noisy_table(false);
+  data.strangers.objects.push_back({"stranger", 0, ""});
+  data.strangers.features = FeatureMatrix::Constant(1, 24, 2.0F);
+  data.strangers.problems = {""};
+  data.tested = TestTable{data.table.objects,           1,  data.table.features(Eigen::seq(1, 59, 2), Eigen::all),
+                          std::vector<std::string>(30), {}, {}};
+  const Settings settings = preset("default");
+  OwnFarm one(1);
+  Teacher teacher(data.table, settings.judge, one.farm(), {});
+  Split split;
+  for (std::uint32_t i = 0; i < 30; ++i) {
+    (i % 4 == 0 ? split.test : split.train).push_back(i);
+  }
+  const Trial expected = run_trial(trial_data(data), teacher, split, settings, true);
+  EXPECT_EQ(expected.named.size(), split.test.size());
+  EXPECT_EQ(expected.strangers.size(), 1U);
+
+  RankState kept;
+  make_table_work(table_context(data.table), kept);
+  const std::string trials = packed([&](Packer& packer) {
+    pack_trials(trial_data(data), {kSharedAs, 1}, settings, true, packer);
+  });
+  const RankWork gram = make_gram_work(gram_context(), kept);
+  const std::vector<GramTask> strips = gram_tasks(data.table, KernelKind::linear);
+  for (std::size_t i = 0; i < strips.size(); ++i) {
+    EXPECT_THROW(make_trial_work(trials, kept), RunError) << "without strip " << i;
+    gram.keep(i, gram.work(pack(strips[i])));
+  }
+  EXPECT_EQ(kept.gram.blocks[0], teacher.gram().blocks[0]);
+  const Work work = make_trial_work(trials, kept);
+  const Trial found = unpack_trial(work(pack(split)), 3);
+  EXPECT_EQ(found.confusion, expected.confusion);
+  EXPECT_EQ(found.named, expected.named);
+  EXPECT_EQ(found.right, expected.right);
+  EXPECT_EQ(found.wrong, expected.wrong);
+  EXPECT_EQ(found.strangers, expected.strangers);
+}
+
+}  // namespace
+}  // namespace spincat

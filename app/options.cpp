@@ -171,7 +171,7 @@ void SettingsArguments::add_to(CLI::App& command) {
       ->group(group)
       ->type_name("NAME");
   command
-      .add_option("--for", taught_for,
+      .add_option("--for", trained_for,
                   "What is to be named later: meshes, or any: point clouds, too (takes twice the time to learn)")
       ->group(group)
       ->type_name("KIND");
@@ -212,14 +212,14 @@ Settings SettingsArguments::applied_to(Settings s) const {
   override(s.words, words);
   override(s.draws, draws);
   override(s.copies, copies);
-  if (taught_for && choice_of<TaughtFor>("--for", *taught_for) == TaughtFor::views && !views) {
+  if (trained_for && choice_of<TrainedFor>("--for", *trained_for) == TrainedFor::views && !views) {
     throw InputError("--for views asks for --views N");
   }
   if (views) {
-    if (taught_for && *taught_for != "views") {
-      throw InputError("--views and --for " + *taught_for + " exclude each other");
+    if (trained_for && *trained_for != "views") {
+      throw InputError("--views and --for " + *trained_for + " exclude each other");
     }
-    s = taught_by_views(s, *views);
+    s = trained_by_views(s, *views);
   }
   if (encoding && make_encoding(*encoding)->gives_local_features()) {  // which cannot be joined
     s.plain_samples = false;
@@ -228,8 +228,8 @@ Settings SettingsArguments::applied_to(Settings s) const {
   if (up) {
     s.up = choice_of<UpAxis>("--up", *up);
   }
-  if (taught_for) {
-    s.taught_for = choice_of<TaughtFor>("--for", *taught_for);
+  if (trained_for) {
+    s.trained_for = choice_of<TrainedFor>("--for", *trained_for);
   }
   if (kernel) {
     s.judge.kernel = choice_of<KernelKind>("--kernel", *kernel);

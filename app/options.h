@@ -61,7 +61,7 @@ struct SettingsArguments {
   std::optional<std::string> surface;
   std::optional<std::string> encoding;
   std::optional<std::string> up;
-  std::optional<std::string> taught_for;
+  std::optional<std::string> trained_for;
   std::optional<int> draws;
   std::optional<int> words;
   std::optional<std::string> kernel;

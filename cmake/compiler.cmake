@@ -13,7 +13,12 @@ target_compile_options(spincat_compiler INTERFACE
   -ffp-contract=off -fno-math-errno -fno-trapping-math
   $<$<BOOL:${SPINCAT_WERROR}>:-Werror>
   $<$<BOOL:${SPINCAT_ASSERTS}>:-UNDEBUG>
-  $<$<CONFIG:Release>:-O3>)
+  $<$<CONFIG:Release>:-O2>)
+
+# Headers that nearly every file needs, read once: half of what compiling a small file takes.
+set(spincat_common_headers
+  <algorithm> <array> <cmath> <cstddef> <cstdint> <filesystem> <functional> <map> <memory> <optional> <span> <string>
+  <string_view> <utility> <variant> <vector> <Eigen/Core> <fmt/format.h>)
 
 if(SPINCAT_SANITIZE)
   target_compile_options(spincat_compiler INTERFACE -fsanitize=${SPINCAT_SANITIZE} -fno-sanitize-recover=all

@@ -38,7 +38,7 @@ class Size:
     work: float            # shared out among all
     sent: float            # bytes to each other process
     returned: float        # bytes from all that are not the first process
-    teaching: float = 0.0  # shared out, too, where processes are sent the table of features and its inner products:
+    training: float = 0.0  # shared out, too, where processes are sent the table of features and its inner products:
     table: float = 0.0     # so many bytes each
 
 
@@ -144,7 +144,7 @@ def least_squares(rows, values):
 
 
 def fit(samples, size_of):
-    """T = constant + per_unit units + (per_work work + per_teaching teaching) / p + launch (ranks > 1) + per_byte bytes
+    """T = constant + per_unit units + (per_work work + per_training training) / p + launch (ranks > 1) + per_byte bytes
 
     Samples: (problem, ranks, threads, seconds); size_of gives a Size."""
     rows, values = [], []
@@ -153,9 +153,9 @@ def fit(samples, size_of):
         many = ranks > 1
         moved = (size.sent + size.table) * (ranks - 1) + size.returned * (ranks - 1) / ranks
         workers = ranks * threads
-        rows.append([1.0, size.units, size.work / workers, size.teaching / workers, float(many), float(moved)])
+        rows.append([1.0, size.units, size.work / workers, size.training / workers, float(many), float(moved)])
         values.append(seconds)
-    names = ["constant", "per_unit", "per_work", "per_teaching", "launch", "per_byte"]
+    names = ["constant", "per_unit", "per_work", "per_training", "launch", "per_byte"]
     model = dict(zip(names, least_squares(rows, values)))
     errors = [abs(sum(c * x for c, x in zip(model.values(), row)) / value - 1) for row, value in zip(rows, values)]
     model["largest_error"] = max(errors)
@@ -163,10 +163,10 @@ def fit(samples, size_of):
 
 
 def predict(model, size, workers):
-    """Teaching stays on the first host: with so many cores there, sending others the table takes longer."""
+    """Training stays on the first host: with so many cores there, sending others the table takes longer."""
     hosts = max(1, math.ceil(workers / HOST_CORES))
     seconds = (model["constant"] + model["per_unit"] * size.units + model["per_work"] * size.work / workers
-               + model["per_teaching"] * size.teaching / min(workers, HOST_CORES))
+               + model["per_training"] * size.training / min(workers, HOST_CORES))
     if hosts > 1:
         bytes_moved = size.sent * (hosts - 1) + size.returned * (hosts - 1) / hosts
         seconds += model["launch"] + HOST_START * math.log2(hosts) + bytes_moved / NETWORK_BYTES
@@ -234,7 +234,7 @@ def study_dense(options, folder):
 
 
 def study_training(options, folder):
-    """The number of stretched copies makes the problem larger: describing grows with it, teaching with its square."""
+    """The number of stretched copies makes the problem larger: describing grows with it, training with its square."""
     samples = []
     objects, features = 0, 0
     for copies in (1, 3, 6):
@@ -248,7 +248,7 @@ def study_training(options, folder):
 
     def size(views):
         table = 4 * objects * features * views
-        return Size(units=views, work=views, teaching=views * views, sent=100.0, returned=table,
+        return Size(units=views, work=views, training=views * views, sent=100.0, returned=table,
                     table=table / 2 + 4 * (objects * views) ** 2)
 
     return "training", samples, fit(samples, size), size, 7

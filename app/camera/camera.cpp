@@ -241,10 +241,10 @@ class CameraRun {
 
 int run_camera(const CameraArguments& arguments) {
   const Model model = read_model(arguments.model);
-  if (model.settings.taught_for != TaughtFor::views && !arguments.run.quiet) {
+  if (model.settings.trained_for != TrainedFor::views && !arguments.run.quiet) {
     message(fmt::format(
-        "{}: was taught for {}, not for what a camera sees; names will often be wrong (train --views 12 teaches that)",
-        arguments.model.string(), name_of(model.settings.taught_for)));
+        "{}: was trained for {}, not for what a camera sees; names will often be wrong (train --views 12 learns that)",
+        arguments.model.string(), name_of(model.settings.trained_for)));
   }
   CameraRun run(arguments, model, arguments.run.thread_count());
   run.run();

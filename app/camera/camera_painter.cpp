@@ -26,7 +26,7 @@ void CameraPainter::finish() {
 }
 
 void CameraPainter::draw_on() {
-  be_modest();
+  lower_priority();
   std::uint64_t number = 0;
   while (true) {
     const CameraState::Shown shown = state_.newer_than(number, kBetweenDraws);

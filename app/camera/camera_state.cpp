@@ -30,7 +30,7 @@ CameraState::Shown CameraState::newer_than(std::uint64_t after, std::chrono::mil
   return {number_, number_ > after ? frame_ : nullptr, ended_};
 }
 
-void be_modest() {
+void lower_priority() {
   constexpr int kNice = 10;
   static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice));  // Linux: of this thread alone
 }

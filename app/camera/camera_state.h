@@ -44,6 +44,6 @@ class CameraState {
 };
 
 // Gives the calling thread what others leave of the processor.
-void be_modest();
+void lower_priority();
 
 }  // namespace spincat::app

@@ -11,7 +11,7 @@
 #include "spincat/camera/source/depth_png.h"
 #include "spincat/error.h"
 #include "spincat/files/file.h"
-#include "spincat/files/system_words.h"
+#include "spincat/files/system_error_text.h"
 
 namespace spincat::app {
 namespace {
@@ -25,11 +25,11 @@ void make_empty_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error || !fs::is_directory(folder, error)) {
-    throw InputError(folder.string(), "cannot be made a folder" + (error ? ": " + in_words(error.value()) : ""));
+    throw InputError(folder.string(), "cannot be made a folder" + (error ? ": " + system_error_text(error.value()) : ""));
   }
   const bool is_empty = fs::is_empty(folder, error);
   if (error) {
-    throw InputError(folder.string(), "cannot be read: " + in_words(error.value()));
+    throw InputError(folder.string(), "cannot be read: " + system_error_text(error.value()));
   }
   if (!is_empty) {
     throw InputError(folder.string(), "is not empty");

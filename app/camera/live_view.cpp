@@ -28,7 +28,7 @@ struct SmallPicture {
   std::string ids;   // 1 + the place of the object in the list of objects, 0 for none
 };
 
-SmallPicture small_picture(const ShownFrame& frame) {
+SmallPicture thumbnail(const ShownFrame& frame) {
   const DepthImage& image = frame.image;
   const int step = std::max(1, image.width / kMostColumns);
   SmallPicture small{image.width / step, image.height / step, {}, {}};
@@ -65,7 +65,7 @@ void append_number(std::string& bytes, std::uint32_t number) {
 std::string frame_bytes(const CameraState::Shown& shown, const std::vector<std::string>& categories) {
   const ShownFrame& frame = *shown.frame;
   const std::string json = frame_json(frame.facts, frame.seen, categories);
-  const SmallPicture small = small_picture(frame);
+  const SmallPicture small = thumbnail(frame);
   std::string bytes;
   append_number(bytes, static_cast<std::uint32_t>(shown.number));
   append_number(bytes, static_cast<std::uint32_t>(10.0 * frame.frames_a_second));
@@ -149,7 +149,7 @@ struct LiveView::Server {
       response.set_content(page.data(), page.size(), "text/html; charset=utf-8");
     });
     http.Get("/frame", [this](const httplib::Request& request, httplib::Response& response) {
-      be_modest();
+      lower_priority();
       const CameraState::Shown newest = state.newer_than(number_of(request, "after"), kLongestWait);
       if (newest.frame) {
         response.set_content(frame_bytes(newest, categories), "application/octet-stream");

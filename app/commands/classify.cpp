@@ -71,14 +71,14 @@ std::vector<Input> expand_folders(const std::vector<fs::path>& arguments) {
   return inputs;
 }
 
-// Objects of a kind that the judges were not taught for: told once, not for each.
-struct Misfits {
+// Objects of a kind that the judges were not trained for: told once, not for each.
+struct KindMismatches {
   std::size_t count = 0;
   std::string first;
 
   void add(const fs::path& file, const Answer& answer) {
-    if (answer.classification && !answer.classification->misfit.empty() && count++ == 0) {
-      first = file.string() + ": " + answer.classification->misfit;
+    if (answer.classification && !answer.classification->kind_mismatch.empty() && count++ == 0) {
+      first = file.string() + ": " + answer.classification->kind_mismatch;
     }
   }
 
@@ -114,9 +114,9 @@ Classified classify_all(const Model& model, const std::vector<Input>& inputs, co
   ProgressBar bar(arguments.run);
   std::size_t printed = 0;
   Classified result;
-  Misfits misfits;
+  KindMismatches kind_mismatches;
   const auto print = [&](const Answer& answer) {
-    misfits.add(inputs[printed].file, answer);
+    kind_mismatches.add(inputs[printed].file, answer);
     result.failed += answer.classification ? 0 : 1;
     bar.wipe();
     printer.print(names[printed], answer);
@@ -150,7 +150,7 @@ Classified classify_all(const Model& model, const std::vector<Input>& inputs, co
   print_problems();
   bar.wipe();
   if (!arguments.run.quiet) {
-    misfits.tell();
+    kind_mismatches.tell();
   }
   return result;
 }

@@ -80,7 +80,7 @@ std::filesystem::path beside(std::filesystem::path report, const char* ending) {
   return report.replace_extension(ending);
 }
 
-std::vector<std::filesystem::path> strangers_of(const EvaluateArguments& a) {
+std::vector<std::filesystem::path> unknown_objects_of(const EvaluateArguments& a) {
   return a.unknown.empty() ? std::vector<std::filesystem::path>() : read_objects(a.unknown, a.unknown_models);
 }
 
@@ -98,7 +98,7 @@ std::string data_identity(const EvaluateArguments& a) {
       }
     }
   }
-  for (const std::filesystem::path& file : strangers_of(a)) {
+  for (const std::filesystem::path& file : unknown_objects_of(a)) {
     data.add(file);
   }
   return data.text();
@@ -121,7 +121,7 @@ int run_evaluate(const EvaluateArguments& arguments, TaskFarm& farm) {
   options.threads = farm.threads();
   options.farm = &farm;
   options.division = arguments.run.division();
-  options.strangers = strangers_of(arguments);
+  options.unknown_objects = unknown_objects_of(arguments);
   check_report(arguments.report);
   if (!arguments.report.empty()) {
     check_writable(beside(arguments.report, ".confusion.svg"));
@@ -134,8 +134,8 @@ int run_evaluate(const EvaluateArguments& arguments, TaskFarm& farm) {
   }
   report_left_out(evaluation.left_out, arguments.run);
   report_skipped(evaluation.skipped, arguments.run);
-  if (!evaluation.misfit.empty() && !arguments.run.quiet) {
-    message("what is tested " + evaluation.misfit);
+  if (!evaluation.kind_mismatch.empty() && !arguments.run.quiet) {
+    message("what is tested " + evaluation.kind_mismatch);
   }
   if (arguments.run.json) {
     fmt::print("{}\n", evaluation_json(evaluation, settings, options, command_line()));

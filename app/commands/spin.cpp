@@ -98,7 +98,7 @@ void write_images(const SpinArguments& arguments, TaskFarm& farm, const DenseObj
   out.write(npy_header(sizes));
   const auto tick = [&](std::size_t done) { bar.update("making spin images", done, object.spin_points.size()); };
   const auto write = [&](std::size_t, std::span<const float> images) { out.write(as_bytes(images)); };
-  if (farm.shares_out()) {
+  if (farm.is_distributed()) {
     make_spin_images(farm, object, write, tick);
   } else {
     const auto write_block = [&](const SpinImageBlock& block) {

@@ -29,7 +29,7 @@ FarmRun::FarmRun(TaskFarm& farm, const RunOptions& run) : farm_(farm), run_(run)
   const int threads = thread_count(run.threads, placement);
   farm.use_threads(threads, run.threads);
   if (const char* share = std::getenv("SPINCAT_SHARE"); share != nullptr && std::string_view(share) == "always") {
-    farm.share_always();
+    farm.always_broadcast();
   }
   if (farm.ranks() > 1 && !run.quiet) {
     for (const std::string& warning : placement_warnings(threads, placement)) {

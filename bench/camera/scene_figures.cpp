@@ -30,7 +30,7 @@ struct Counts {
   Confusion fused;
 };
 
-bool is_right_plane(const SeenFrame& frame, const Table& truth) {
+bool is_right_plane(const SeenFrame& frame, const SupportPlane& truth) {
   constexpr float kCosine = 0.9986F;  // 3 degrees
   return frame.table && frame.table->normal.dot(truth.normal) > kCosine &&
          std::abs(frame.table->offset - truth.offset) < 0.02F;

@@ -26,7 +26,7 @@ Dataset part_of(const Dataset& objects, std::span<const std::uint32_t> which) {
 }
 
 Model views_model(const Dataset& objects, const SceneOptions& options) {
-  Settings settings = taught_by_views(preset("default"), options.views);
+  Settings settings = trained_by_views(preset("default"), options.views);
   settings.up = options.up;
   return train(objects, settings, {false, options.threads}).model;
 }

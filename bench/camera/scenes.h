@@ -19,7 +19,7 @@ std::vector<std::uint32_t> labels_of(const Dataset& objects);
 // Some of the objects; all categories stay.
 Dataset part_of(const Dataset& objects, std::span<const std::uint32_t> which);
 
-// A model that was taught by views of all objects.
+// A model that was trained by views of all objects.
 Model views_model(const Dataset& objects, const SceneOptions& options);
 
 // A scene, how it is looked at, and what its things are.

@@ -12,7 +12,7 @@
 #include "spincat/error.h"
 #include "spincat/evaluate/tested_objects.h"
 #include "spincat/evaluate/trial.h"
-#include "spincat/train/teach_tasks.h"
+#include "spincat/train/train_tasks.h"
 
 namespace spincat {
 

@@ -538,7 +538,7 @@ TEST_F(Command, ViewsAreTaughtAndMeasuredAndClassifySaysWhatAMeshIsToThem) {
   const Result named = run("classify views.spincat 'new box.off' new-cone.off");
   EXPECT_EQ(named.code, 0);
   EXPECT_EQ(named.err,
-            "spincat: new box.off: is a mesh, but the judges were taught by views: they see one view of it (1 more are "
+            "spincat: new box.off: is a mesh, but the judges were trained by views: they see one view of it (1 more are "
             "of such a kind)\n");
   EXPECT_EQ(run("classify views.spincat new-cone.off --quiet").err, "");
   const Json measured = Json::parse(run("evaluate shapes --splits 2 --json" + small).out);

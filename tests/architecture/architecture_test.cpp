@@ -63,7 +63,7 @@ TEST(Architecture, EveryModuleIncludesOnlyWhatItMay) {
       continue;
     }
     const fs::path relative = entry.path().lexically_relative(root);
-    if (relative == "error.h") {
+    if (!relative.has_parent_path()) {  // above all rooms, but for error.h
       continue;
     }
     const std::string module = *relative.begin();
@@ -72,7 +72,7 @@ TEST(Architecture, EveryModuleIncludesOnlyWhatItMay) {
       if (include.rfind("spincat/", 0) != 0 || include == "spincat/error.h") {
         continue;
       }
-      const std::string other = include.substr(8, include.find('/', 8) - 8);
+      const std::string other = include.substr(8, include.find('/', 8) - 8);  // a name with .h: nothing may include it
       EXPECT_TRUE(other == module || kAllowed.at(module).contains(other)) << relative << " includes " << include;
       ++seen;
     }

@@ -22,7 +22,7 @@ TEST(ClassifyFiles, ProblemsAreInNoJournal) {
   const Dataset shapes = read_dataset({dir / "shapes"});
   ASSERT_EQ(shapes.objects.size(), 13U);
   Journal journal(dir / "j", {"settings", "data"});
-  OwnFarm own(1);
+  LocalFarm own(1);
   own.farm().use_journal(&journal);
   const ClassifyJob job{model, model_file, shapes.objects.size(),
                         [&](std::size_t i) -> const std::filesystem::path& { return shapes.objects[i].file; }};

@@ -33,7 +33,7 @@ Settings small_settings(const char* encoding, KernelKind kernel) {
 }
 
 // Boxes, cones and balls, three of each.
-Model taught(const Settings& settings) {
+Model trained(const Settings& settings) {
   const test::TempDir dir;
   for (int k = 0; k < 3; ++k) {
     const double size = 1.0 + 0.1 * k;
@@ -71,7 +71,7 @@ TEST(Evidence, SharesAddUpToTheMarginOfWinnerAndRunnerUp) {
     settings.plain_samples = true;
     settings.up = UpAxis::z;
     settings.draws = 2;
-    const Model model = taught(settings);
+    const Model model = trained(settings);
     const Classification found = classify(model, new_object());
     const Evidence evidence = explain(model, new_object(), found.ballot);
     EXPECT_EQ(evidence.kind, EvidenceKind::shares) << encoding;
@@ -89,7 +89,7 @@ TEST(Evidence, SharesAddUpToTheMarginOfWinnerAndRunnerUp) {
 TEST(Evidence, LeavingOutIsWhatTheMarginFallsBy) {
   // Slowly, and by the public road only: all images but one, encoded and voted on again.
   const Settings settings = small_settings("mean-image", KernelKind::rbf);
-  const Model model = taught(settings);
+  const Model model = trained(settings);
   const Classification found = classify(model, new_object());
   const Evidence evidence = explain(model, new_object(), found.ballot);
   ASSERT_EQ(evidence.kind, EvidenceKind::leaving_out);
@@ -116,7 +116,7 @@ TEST(Evidence, LeavingOutIsWhatTheMarginFallsBy) {
 TEST(Evidence, EveryEncodingAndKernelIsExplained) {
   for (const char* const encoding : {"pooled-pyramid", "concatenation", "bag-of-features"}) {
     for (const KernelKind kernel : {KernelKind::linear, KernelKind::rbf}) {
-      const Model model = taught(small_settings(encoding, kernel));
+      const Model model = trained(small_settings(encoding, kernel));
       const Ballot ballot = classify(model, new_object()).ballot;
       const Evidence evidence = explain(model, new_object(), ballot);
       const bool exact = kernel == KernelKind::linear && std::string(encoding) != "bag-of-features";
@@ -132,7 +132,7 @@ TEST(Evidence, EveryEncodingAndKernelIsExplained) {
 
 TEST(Evidence, OfManyPointsTheFirstAreLeftOut) {
   Settings settings = small_settings("mean-image", KernelKind::rbf);
-  Model model = taught(settings);
+  Model model = trained(settings);
   model.settings.prepare.points = 3000;
   model.settings.prepare.spin_points = static_cast<int>(kMostLeftOut) + 100;
   const Evidence evidence = explain(model, new_object(), classify(model, new_object()).ballot);

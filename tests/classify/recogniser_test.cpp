@@ -25,7 +25,7 @@ const Model& views_model() {
   static const Model model = [] {
     const test::TempDir dir;
     test::write_tiny_shapes(dir, "shapes", 4);
-    Settings settings = taught_by_views(test::tiny_settings(), 6);
+    Settings settings = trained_by_views(test::tiny_settings(), 6);
     settings.up = UpAxis::z;
     return train(read_dataset({dir / "shapes"}), settings, {false, 2}).model;
   }();

@@ -49,7 +49,7 @@ file(WRITE ${SCRATCH_DIR}/nonsense "no model at all\n")
 expect(1 ${name_objects} ${SCRATCH_DIR}/nonsense ${SCRATCH_DIR}/nonsense)
 expect_text("${err}" "^name_objects: [^\n]*nonsense: [^\n]+\n$")
 
-# The installed command teaches boards and sticks; the example names one of each, and one file that is neither.
+# The installed command trains boards and sticks; the example names one of each, and one file that is neither.
 foreach(i RANGE 1 3)
   write_box(${SCRATCH_DIR}/boxes/board/${i}.off 1.${i} 1 0.05)
   write_box(${SCRATCH_DIR}/boxes/stick/${i}.off 1.${i} 0.05 0.06)

@@ -31,7 +31,7 @@ class DenseObjects : public testing::Test {
 // A data set's images are gigabytes.
 TEST_F(DenseObjects, AJournalKeepsSumsAndWantedImagesAlone) {
   Journal journal(dir_.path() / "j", {"settings", "data"});
-  OwnFarm own(1);
+  LocalFarm own(1);
   own.farm().use_journal(&journal);
   const std::string encoding = settings().encoding;
   const FeatureVector of_images = encode_object(own.farm(), object(), encoding, Division::images, {});

@@ -45,11 +45,11 @@ TEST(Described, PassesThroughBytesAndNoOthersDo) {
   EXPECT_EQ(back.features[0].blocks, described.features[0].blocks);
   EXPECT_EQ(back.features[1].values, described.features[1].values);
   EXPECT_EQ(back.features[1].local_size, 5U);
-  EXPECT_TRUE(look_at_described(bytes).head.features[0].values.empty());
+  EXPECT_TRUE(view_described(bytes).head.features[0].values.empty());
   const std::string twelve("\x0C\0\0\0\0\0\0\0", 8);  // bytes of three numbers
   std::string half = bytes;
   half.replace(half.find(twelve), 8, std::string("\x0B\0\0\0\0\0\0\0", 8));
-  EXPECT_THROW(look_at_described(half), RunError);
+  EXPECT_THROW(view_described(half), RunError);
 }
 
 TEST(DescribeObject, MakesAProblemOfWhatTheObjectIsToBlameFor) {
@@ -105,7 +105,7 @@ class ListedObjects : public testing::Test {
 
 // Nobody writes to the pipe, and the device never ends.
 TEST_F(ListedObjects, MustBeRegularFilesToBeDescribed) {
-  OwnFarm farm(2);
+  LocalFarm farm(2);
   const Settings settings = test::tiny_settings();
   const auto file = [&](std::size_t i) -> const fs::path& { return files_[i]; };
   const DescribeJob job{files_.size(), file, settings, 1, Division::sums, {}, {}};
@@ -119,7 +119,7 @@ TEST_F(ListedObjects, MustBeRegularFilesToBeDescribed) {
 }
 
 TEST_F(ListedObjects, MustBeRegularFilesToBeTested) {
-  OwnFarm farm(2);
+  LocalFarm farm(2);
   std::vector<DatasetObject> objects;
   for (const fs::path& file : files_) {
     objects.push_back({file, 0, ""});

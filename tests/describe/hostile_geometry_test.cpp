@@ -26,14 +26,14 @@ namespace {
 using test::HostileObject;
 using test::input_error;
 
-// Every way to a feature vector: presets, encodings, kinds of surface, what the judges are taught for.
+// Every way to a feature vector: presets, encodings, kinds of surface, what the judges are trained for.
 std::map<std::string, Settings> all_settings() {
   const Settings tiny = test::tiny_settings();
   std::map<std::string, Settings> all = {{"default", tiny}};
   all["paper"] = preset("paper");
   all["paper"].copies = 1;
   all["any"] = tiny;
-  all["any"].taught_for = TaughtFor::any;
+  all["any"].trained_for = TrainedFor::any;
   all["any"].plain_samples = true;
   all["any"].draws = 2;
   all["up"] = tiny;
@@ -41,7 +41,7 @@ std::map<std::string, Settings> all_settings() {
   all["mean image"] = tiny;
   all["mean image"].encoding = "mean-image";
   all["mean image"].spin.angle_test = AngleTest::cutoff;
-  all["views"] = taught_by_views(tiny, 2);
+  all["views"] = trained_by_views(tiny, 2);
   all["views"].up = UpAxis::z;
   return all;
 }
@@ -124,11 +124,11 @@ TEST_P(Hostile, GeometryGivesFiniteFeaturesAndAValidBallotOrIsRefused) {
     } catch (const InputError& error) {
       problem = error.what();
     }
-    EXPECT_TRUE(problem.empty() || settings.taught_for == TaughtFor::views) << problem;
+    EXPECT_TRUE(problem.empty() || settings.trained_for == TrainedFor::views) << problem;
   }
 }
 
-TEST_P(Hostile, GeometryAmongTheTrainingObjectsTeachesFiniteJudges) {
+TEST_P(Hostile, GeometryAmongTheTrainingObjectsTrainsFiniteJudges) {
   Settings settings = all_settings().at(GetParam());
   const test::TempDir dir;
   test::write_tiny_shapes(dir, "shapes", 4);
@@ -146,7 +146,7 @@ TEST_P(Hostile, GeometryAmongTheTrainingObjectsTeachesFiniteJudges) {
   }
   const Dataset dataset = read_dataset({dir / "shapes"});
   const TrainResult result = train(dataset, settings, {false, 2});
-  if (settings.taught_for != TaughtFor::views) {
+  if (settings.trained_for != TrainedFor::views) {
     EXPECT_EQ(result.skipped.size(), refused);
   }
   write_model(dir / "x.spincat", result.model);

@@ -302,8 +302,8 @@ TEST(PooledPyramid, SharesOfAllImagesAddUp) {
     product += static_cast<double>(weights[j]) * static_cast<double>(values[j]);
   }
   std::vector<double> shares(13, 0.0);
-  EXPECT_TRUE(object->add_shares(block_of(images, 0, 6), sums, weights, shares));
-  EXPECT_TRUE(object->add_shares(block_of(images, 6, 7), sums, weights, shares));
+  EXPECT_TRUE(object->add_contributions(block_of(images, 0, 6), sums, weights, shares));
+  EXPECT_TRUE(object->add_contributions(block_of(images, 6, 7), sums, weights, shares));
   double sum = 0.0;
   for (const double share : shares) {
     sum += share;
@@ -334,7 +334,7 @@ TEST(PooledPyramid, AMeanIsSharedByTheRootsAndADeviationByTheirDistances) {
     std::vector<float> weights(values.size(), 0.0F);
     weights[feature] = 1.0F;
     std::vector<double> shares(5, 0.0);
-    ASSERT_TRUE(object->add_shares(block_of(images, 0, 5), sums, weights, shares));
+    ASSERT_TRUE(object->add_contributions(block_of(images, 0, 5), sums, weights, shares));
     EXPECT_NEAR(shares[3], first * static_cast<double>(values[feature]), 1e-6);
     EXPECT_NEAR(shares[4], (1.0 - first) * static_cast<double>(values[feature]), 1e-6);
     EXPECT_EQ(shares[0] + shares[1] + shares[2], 0.0);

@@ -150,7 +150,7 @@ TEST(Shares, OfMeanImageAndConcatenationAddUpImageByImage) {
       product += static_cast<double>(weights[j]) * static_cast<double>(values[j]);
     }
     std::vector<double> shares(4, 0.0);
-    ASSERT_TRUE(object->add_shares(all, sums, weights, shares)) << name;
+    ASSERT_TRUE(object->add_contributions(all, sums, weights, shares)) << name;
     EXPECT_NEAR(shares[0] + shares[1] + shares[2] + shares[3], product, 1e-5) << name;
     EXPECT_NE(shares[0], shares[3]) << name;
   }
@@ -171,7 +171,7 @@ TEST(BagOfFeatures, WithoutAnImageOthersTakeItsPlace) {
     EXPECT_EQ(found[64 + i], with_all[i]);
   }
   std::vector<double> shares(3, 0.0);
-  EXPECT_FALSE(object->add_shares(all, sums, std::vector<float>(with_all.size()), shares));
+  EXPECT_FALSE(object->add_contributions(all, sums, std::vector<float>(with_all.size()), shares));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 #include "spincat/parallel/task_farm.h"
 #include "spincat/prepare/as_cloud.h"
 #include "spincat/train/feature_table.h"
-#include "spincat/train/teacher.h"
+#include "spincat/train/judge_trainer.h"
 #include "support/shapes.h"
 #include "support/temp_dir.h"
 
@@ -106,13 +106,13 @@ double rate(const Dataset& dataset, const Settings& settings) {
   return evaluate(dataset, settings, options).mean_class_rate.mean;
 }
 
-// The share of objects that are named right by judges taught on half of the objects, shown to them as noisy clouds.
+// The share of objects that are named right by judges trained on half of the objects, shown to them as noisy clouds.
 double cloud_rate(const Dataset& dataset, const Settings& settings) {
   const FeatureTable table = describe_dataset(dataset, settings, true, 2, {});
   const std::vector<std::uint32_t> labels = table.object_labels();
   const Split split = stratified_splits(labels, 1, 0.5, 1)[0];
-  OwnFarm farm(2);
-  const JudgeList judges = Teacher(table, settings.judge, farm.farm(), {}).teach(split.train);
+  LocalFarm farm(2);
+  const JudgeList judges = JudgeTrainer(table, settings.judge, farm.farm(), {}).train(split.train);
   double right = 0.0;
   for (const std::uint32_t i : split.test) {
     const Object cloud = as_cloud(read_object(dataset.objects[i].file), 2048, 0.01, derive_seed(9, i));
@@ -127,7 +127,7 @@ TEST(Accuracy, GeneratedFurnitureStaysKnown) {
 
 TEST(Accuracy, GeneratedFurnitureStaysKnownAsClouds) {
   Settings settings = fewer_copies(2);
-  settings.taught_for = TaughtFor::any;
+  settings.trained_for = TrainedFor::any;
   EXPECT_GE(cloud_rate(read_dataset({furniture_folder()}), settings), 0.9);
 }
 

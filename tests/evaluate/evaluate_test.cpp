@@ -203,12 +203,12 @@ TEST_F(Protocols, ConfidenceIsMeasuredOnKnownAndUnknownObjects) {
   EvaluateOptions options;
   options.splits = 2;
   EXPECT_FALSE(evaluate(shapes(), tiny_settings(), options).confidence.has_value());
-  options.strangers = {dir_.write("ball.off", test::off_text(test::icosphere(2))), dir_ / "absent.off"};
+  options.unknown_objects = {dir_.write("ball.off", test::off_text(test::icosphere(2))), dir_ / "absent.off"};
   const Evaluation one = evaluate(shapes(), tiny_settings(), options);
   options.threads = 3;
   const Evaluation three = evaluate(shapes(), tiny_settings(), options);
   ASSERT_TRUE(one.confidence && three.confidence);
-  EXPECT_EQ(one.confidence->strangers, 1U);
+  EXPECT_EQ(one.confidence->unknown_objects, 1U);
   EXPECT_EQ(one.confidence->known_or_unknown, three.confidence->known_or_unknown);
   EXPECT_EQ(one.confidence->mean_confidence, three.confidence->mean_confidence);
   EXPECT_GT(one.confidence->mean_confidence, 0.0);
@@ -227,7 +227,7 @@ TEST_F(Protocols, AJournalKeepsSplitsForTheSameDataAndSettings) {
   Journal journal(dir_ / "j", {"settings", "data"});
   Evaluation found;
   const auto resumed = [&](const Progress& progress = {}) {
-    OwnFarm own(2);
+    LocalFarm own(2);
     own.farm().use_journal(&journal);
     EvaluateOptions with_farm = options;
     with_farm.farm = &own.farm();

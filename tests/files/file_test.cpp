@@ -21,11 +21,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-template <typename Expected, typename Action>
+template <typename TableTicket, typename Action>
 std::string problem_of(Action action) {
   try {
     action();
-  } catch (const Expected& error) {
+  } catch (const TableTicket& error) {
     return error.problem();
   }
   return "(nothing thrown)";

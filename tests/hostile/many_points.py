@@ -4,7 +4,7 @@
   many_points.py SPINCAT FOLDER [POINTS]
 
 The object is a bumpy ball: a cloud (.ply, three floats a point) and a mesh (.ply) of twice as many triangles as points.
-Judges by every preset, judges taught for clouds, and `spin`. Needs a gigabyte in FOLDER and twelve of memory.
+Judges by every preset, judges trained for clouds, and `spin`. Needs a gigabyte in FOLDER and twelve of memory.
 """
 import array
 import json

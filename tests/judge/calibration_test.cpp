@@ -89,7 +89,7 @@ TEST(FitCalibration, ALargerMarginNeverMeansLessConfidence) {
   EXPECT_NEAR(confidence_at(found, 6.0), 0.5, 0.01);
 }
 
-// Known objects are familiar and strangers are not; margins tell right from wrong.
+// Known objects are familiar and unknown objects are not; margins tell right from wrong.
 std::vector<JudgedObject> known_votes() {
   std::vector<JudgedObject> votes;
   for (int i = 0; i < 200; ++i) {
@@ -100,11 +100,11 @@ std::vector<JudgedObject> known_votes() {
 }
 
 std::vector<JudgedObject> strangers_at(double familiarity) {
-  std::vector<JudgedObject> strangers;
+  std::vector<JudgedObject> unknown_objects;
   for (int i = 0; i < 200; ++i) {
-    strangers.push_back({0.01 * (i - 40), false, familiarity + 0.1 * (i % 7 - 3)});
+    unknown_objects.push_back({0.01 * (i - 40), false, familiarity + 0.1 * (i % 7 - 3)});
   }
-  return strangers;
+  return unknown_objects;
 }
 
 TEST(FitCalibration, StrangersMakeFamiliarityCount) {

@@ -70,13 +70,13 @@ TEST(AllPairs, AreInTheOrderOfTheJudges) {
   }
 }
 
-// Teaches the only judge of two categories on one-dimensional points.
-Judge teach(const std::vector<float>& x, const std::vector<std::uint32_t>& labels, const JudgeSettings& settings) {
+// Trains the only judge of two categories on one-dimensional points.
+Judge train(const std::vector<float>& x, const std::vector<std::uint32_t>& labels, const JudgeSettings& settings) {
   const FeatureMatrix features = column(x);
-  const SharedGram gram = make_shared_gram(KernelKind::linear, {}, features, 1);
+  const GramMatrices gram = make_shared_gram(KernelKind::linear, {}, features, 1);
   std::vector<std::uint32_t> rows(x.size());
   std::iota(rows.begin(), rows.end(), 0U);
-  return TrainingSet(features, gram, {}, labels, rows, 2).teach({0, 1}, settings);
+  return TrainingSet(features, gram, {}, labels, rows, 2).train({0, 1}, settings);
 }
 
 // Of the line that the judge folds into.
@@ -100,17 +100,17 @@ TEST(TrainingSet, ClassWeightsKeepALargeCategoryFromOutvotingASmallOne) {
       ++moved;
     }
   }
-  const Judge weighed = teach(x, labels, {KernelKind::linear, 200.0, true});
+  const Judge weighed = train(x, labels, {KernelKind::linear, 200.0, true});
   EXPECT_NEAR(weight(weighed, x), 1.0, kSolved);
   EXPECT_NEAR(weighed.bias, 0.0, kSolved);
-  const Judge counted = teach(x, labels, {KernelKind::linear, 200.0, false});
+  const Judge counted = train(x, labels, {KernelKind::linear, 200.0, false});
   EXPECT_NEAR(weight(counted, x) + counted.bias, -1.0, kSolved);
   EXPECT_NEAR(-weight(counted, x) + counted.bias, -1.0, kSolved);
 }
 
 TEST(TrainingSet, PricesAreCTimesAllObjectsByThoseOfTheCategory) {
   // Both at one place: the multipliers reach the smaller price. Three objects, two categories: 3/2 and 3/4 of C.
-  const Judge judge = teach({1, 1, 1}, {0, 1, 1}, {KernelKind::linear, 4.0, true});
+  const Judge judge = train({1, 1, 1}, {0, 1, 1}, {KernelKind::linear, 4.0, true});
   EXPECT_EQ(judge.rows.size(), 3U);
   // Balanced, the two sides pull equally, at twice C 3/4: the weight is 1 * 6 - 1 * 6.
   EXPECT_NEAR(weight(judge, {1, 1, 1}), 0.0, kSolved);
@@ -123,7 +123,7 @@ struct ThreeClouds {
   FeatureMatrix features = FeatureMatrix(45, 8);
   std::vector<std::uint32_t> labels;
   std::vector<std::uint32_t> rows;  // those to learn from: two in three
-  SharedGram gram;
+  GramMatrices gram;
 
   ThreeClouds() {
     Random random(1);
@@ -139,13 +139,13 @@ struct ThreeClouds {
     gram = make_shared_gram(KernelKind::linear, kBlocks, features, 1);
   }
 
-  JudgeList judges(const SharedGram& shared_gram, KernelKind kind = KernelKind::linear) const {
+  JudgeList judges(const GramMatrices& shared_gram, KernelKind kind = KernelKind::linear) const {
     const TrainingSet training(features, shared_gram, fit_kernel(kind, kBlocks, features, rows), labels, rows, 3);
-    std::vector<Judge> taught;
+    std::vector<Judge> trained;
     for (const CategoryPair pair : all_pairs(3)) {
-      taught.push_back(training.teach(pair, {kind, default_c(kind), true}));
+      trained.push_back(training.train(pair, {kind, default_c(kind), true}));
     }
-    return training.list(taught);
+    return training.list(trained);
   }
 };
 
@@ -153,24 +153,24 @@ struct ThreeClouds {
 TEST(TrainingSet, TellsMarginsWithoutFolding) {
   for (const KernelKind kind : {KernelKind::linear, KernelKind::rbf}) {
     const ThreeClouds clouds;
-    const SharedGram gram = make_shared_gram(kind, kBlocks, clouds.features, 1);
+    const GramMatrices gram = make_shared_gram(kind, kBlocks, clouds.features, 1);
     const TrainingSet training(clouds.features, gram, fit_kernel(kind, kBlocks, clouds.features, clouds.rows),
                                clouds.labels, clouds.rows, 3);
-    std::vector<Judge> taught;
+    std::vector<Judge> trained;
     for (const CategoryPair pair : all_pairs(3)) {
-      taught.push_back(training.teach(pair, {kind, default_c(kind), true}));
+      trained.push_back(training.train(pair, {kind, default_c(kind), true}));
     }
     const std::vector<std::uint32_t> rows = {44, 0, 7};
     std::vector<std::span<const float>> objects;
     for (const std::uint32_t row : rows) {
       objects.emplace_back(clouds.features.row(row).data(), 8);
     }
-    const FeatureMatrix margins = training.margins(taught, rows);
-    const FeatureMatrix expected = training.list(taught).margins(objects);
+    const FeatureMatrix margins = training.margins(trained, rows);
+    const FeatureMatrix expected = training.list(trained).margins(objects);
     ASSERT_EQ(margins.rows(), 3);
     ASSERT_EQ(margins.cols(), 3);
     EXPECT_LT((margins - expected).cwiseAbs().maxCoeff(), 1e-4F * (1.0F + expected.cwiseAbs().maxCoeff()));
-    EXPECT_EQ(training.margins(std::span(taught).subspan(1, 1), rows), margins.col(1));
+    EXPECT_EQ(training.margins(std::span(trained).subspan(1, 1), rows), margins.col(1));
   }
 }
 
@@ -224,7 +224,7 @@ TEST(JudgeList, VotesAsTheSupportVectorsDo) {
 
 TEST(JudgeList, RbfVotesAsTheSupportVectorsDo) {
   const ThreeClouds clouds;
-  const SharedGram gram = make_shared_gram(KernelKind::rbf, kBlocks, clouds.features, 1);
+  const GramMatrices gram = make_shared_gram(KernelKind::rbf, kBlocks, clouds.features, 1);
   const JudgeList judges = clouds.judges(gram, KernelKind::rbf);
   const Kernel kernel = fit_kernel(KernelKind::rbf, kBlocks, clouds.features, clouds.rows);
   const TrainingSet training(clouds.features, gram, kernel, clouds.labels, clouds.rows, 3);
@@ -232,7 +232,7 @@ TEST(JudgeList, RbfVotesAsTheSupportVectorsDo) {
   EXPECT_EQ(judges.feature_length(), 8U);
   EXPECT_LE(judges.supports.rows(), 30);  // each training object once, however many judges lean on it
   for (std::size_t l = 0; l < pairs.size(); ++l) {
-    const Judge judge = training.teach(pairs[l], {KernelKind::rbf, default_c(KernelKind::rbf), true});
+    const Judge judge = training.train(pairs[l], {KernelKind::rbf, default_c(KernelKind::rbf), true});
     ASSERT_EQ(judge.rows.size(), judges.support_vectors[l]);
     for (std::uint32_t i = 0; i < 45; ++i) {
       double margin = judge.bias;
@@ -259,10 +259,10 @@ TEST(JudgeList, RbfTellsARingFromItsMiddle) {
     labels.push_back(static_cast<std::uint32_t>(i % 2));
   }
   const auto right = [&](KernelKind kind) {
-    const SharedGram none;
+    const GramMatrices none;
     const TrainingSet training(features, none, fit_kernel(kind, std::vector<std::uint32_t>{2}, features, rows), labels,
                                rows, 2);
-    const JudgeList judges = training.list(std::vector<Judge>{training.teach({0, 1}, {kind, 200.0, true})});
+    const JudgeList judges = training.list(std::vector<Judge>{training.train({0, 1}, {kind, 200.0, true})});
     int count = 0;
     for (const std::uint32_t row : rows) {
       count += judges.vote({features.row(row).data(), 2}).winner == labels[row] ? 1 : 0;

@@ -79,9 +79,9 @@ TEST(KernelMatrix, IsTheDefinition) {
   const FeatureMatrix features = random_features(9);
   const std::vector<std::uint32_t> rows = {7, 1, 2, 4};
   const Kernel kernel = fit_kernel(KernelKind::rbf, kBlocks, features, first_rows(9));
-  const SharedGram gram = make_shared_gram(KernelKind::rbf, kBlocks, features, 1);
+  const GramMatrices gram = make_shared_gram(KernelKind::rbf, kBlocks, features, 1);
   ASSERT_EQ(gram.blocks.size(), 3U);
-  for (const SharedGram& shared : {gram, SharedGram{}}) {
+  for (const GramMatrices& shared : {gram, GramMatrices{}}) {
     const Eigen::MatrixXf found = kernel_matrix(kernel, features, shared, rows);
     for (Eigen::Index i = 0; i < 4; ++i) {
       for (Eigen::Index j = 0; j < 4; ++j) {
@@ -95,7 +95,7 @@ TEST(KernelMatrix, IsTheDefinition) {
 TEST(KernelMatrix, IsTheGramMatrixWhenLinear) {
   const FeatureMatrix features = random_features(9);
   const std::vector<std::uint32_t> rows = {7, 1};
-  const SharedGram gram = make_shared_gram(KernelKind::linear, kBlocks, features, 1);
+  const GramMatrices gram = make_shared_gram(KernelKind::linear, kBlocks, features, 1);
   ASSERT_EQ(gram.blocks.size(), 1U);
   const Eigen::MatrixXf found = kernel_matrix({}, features, gram, rows);
   EXPECT_NEAR(found(0, 1), features.row(7).dot(features.row(1)), 1e-5);

@@ -59,8 +59,8 @@ TEST_P(BrokenLinks, CostNothingButTime) {
   }
 }
 
-// What all ranks need to teach: the table, the inner products, the lessons, and whether a rank is ready for them.
-TEST_P(BrokenLinks, WhileOtherRanksTeachCostNothingButTime) {
+// What all ranks need to train: the table, the inner products, the trainings, and whether a rank is ready for them.
+TEST_P(BrokenLinks, WhileOtherRanksTrainCostNothingButTime) {
   constexpr int kObjects = 36;
   const std::string small = "--copies 1 --points 256 --spin-points 32";
   ASSERT_EQ(alone("train boxes --threads 1 -o alone.spincat " + small).code, 0);
@@ -68,9 +68,9 @@ TEST_P(BrokenLinks, WhileOtherRanksTeachCostNothingButTime) {
       {0, farm::kJob, 3},              // two ranks were told to describe objects: the table
       {0, farm::kJob, 5},              // the inner products
       {0, farm::kTold, kObjects + 1},  // the first of these
-      {0, farm::kJob, 7},              // the lessons
+      {0, farm::kJob, 7},              // the trainings
       {1, farm::kReady, 3},            // for the inner products
-      {1, farm::kReady, 4}};           // for the lessons
+      {1, farm::kReady, 4}};           // for the trainings
   for (const auto& [rank, tag, call] : failures) {
     const std::string failure = fmt::format("{} MPI_Isend:{} {}", rank, static_cast<int>(tag), call);
     const RunResult result = train_with(failure, small, kShareAlways);

@@ -86,7 +86,7 @@ TEST_P(UnderMpi, ModelsAreTheSameBytes) {
   EXPECT_TRUE(bytes("ranks.spincat") == expected) << "images";
 }
 
-TEST_P(UnderMpi, ModelsThatOtherRanksTeachAreTheSameBytes) {
+TEST_P(UnderMpi, ModelsThatOtherRanksTrainAreTheSameBytes) {
   make_dataset(5);
   for (const std::string kernel : {"linear", "rbf"}) {
     const std::string small = "--threads 1 --copies 1 --points 256 --spin-points 32 --kernel " + kernel;
@@ -132,7 +132,7 @@ TEST_P(UnderMpi, EvaluationsAndNamesAreTheSame) {
   }
 }
 
-// The second point's judges are taught on the table that the ranks have.
+// The second point's judges are trained on the table that the ranks have.
 TEST_P(UnderMpi, SweepsAreTheSame) {
   make_dataset(5);
   const std::string sweep =

@@ -28,7 +28,7 @@ inline std::string contents(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// Other ranks do all that they can: what tests teach is else too little to be shared out.
+// Other ranks do all that they can: what tests train is else too little to be shared out.
 inline constexpr const char* kShareAlways = "SPINCAT_SHARE=always";
 
 // A make of MPI: its plug-in and its launcher.

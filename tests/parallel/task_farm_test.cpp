@@ -516,7 +516,7 @@ TEST(TaskFarm, NothingPilesUpForASilentRank) {
 TEST(TaskFarm, WhoTakesNothingIsDoneWithoutUntilItDoes) {
   Ranks others(2);
   TaskFarm farm(others.communicator());
-  farm.share_always();
+  farm.always_broadcast();
   const std::vector<int> numbers = numbers_up_to(20);
   for (const bool is_slow : {true, false}) {
     others.wires().slow_down(1, is_slow ? std::size_t{2} << 30 : 0);
@@ -635,7 +635,7 @@ TEST(TaskFarm, AJournalNobodyAskedForMayFail) {
   Journal journal(dir.path() / "j", {"settings", "data"});
   int told = 0;
   for (const bool is_asked_for : {false, true}) {
-    OwnFarm own(2);
+    LocalFarm own(2);
     const FileSizeLimit limit(1'000);
     own.farm().use_journal(
         &journal, is_asked_for ? std::function<void(const RunError&)>() : [&](const RunError&) { ++told; });

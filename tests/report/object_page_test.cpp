@@ -119,7 +119,7 @@ TEST(MarginsJson, AreThousandthsOrCoarserWhereTheyAreLarge) {
 }
 
 // Two categories with nasty names.
-Model taught() {
+Model trained() {
   const test::TempDir dir;
   for (int k = 0; k < 3; ++k) {
     dir.write(fmt::format("d/box/{}.off", k), test::off_text(test::box(1, 1.0 + 0.1 * k, 1.2)));
@@ -144,7 +144,7 @@ std::size_t count(const std::string& text, const std::string& wanted) {
 }
 
 TEST(ClassificationPage, HoldsTheAnswersAndWhereTheirEvidenceLies) {
-  const Model model = taught();
+  const Model model = trained();
   const Object object = test::box(1, 1.15, 1.2);
   const Classification found = classify(model, object);
   const Evidence evidence = explain(model, object, found.ballot);

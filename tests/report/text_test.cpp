@@ -247,7 +247,7 @@ TEST(EvaluationText, OfAnotherDataSetHasNoSpread) {
             "overall rate     0.800   95 % interval 0.750 to 0.850\n"
             "16 objects, 3 categories, tested on 6 objects of others?, 12.4 s\n");
   e.protocol = Protocol::leave_one_out;
-  EXPECT_NE(last_lines(e).find("3 categories, each object named by judges taught on all others, "), std::string::npos);
+  EXPECT_NE(last_lines(e).find("3 categories, each object named by judges trained on all others, "), std::string::npos);
 }
 
 TEST(EvaluationText, TellsWhatTheConfidenceTells) {
@@ -255,7 +255,7 @@ TEST(EvaluationText, TellsWhatTheConfidenceTells) {
   e.confidence = ConfidenceMeasure{0.9, 0.8, 0.7, 0};
   EXPECT_NE(last_lines(e).find("confidence       0.700 on average; area under the curve 0.900 for right or wrong\n"),
             std::string::npos);
-  e.confidence->strangers = 5;
+  e.confidence->unknown_objects = 5;
   EXPECT_NE(last_lines(e).find("0.900 for right or wrong, 0.800 for known or unknown (5 unknown objects)\n"),
             std::string::npos);
 }

@@ -34,7 +34,7 @@ Settings unusual() {
   s.plain_samples = true;
   s.up = UpAxis::y;
   s.draws = 3;
-  s.taught_for = TaughtFor::any;
+  s.trained_for = TrainedFor::any;
   s.words = 99;
   s.judge.kernel = KernelKind::rbf;
   s.judge.c = 1.0 / 3.0;
@@ -79,7 +79,7 @@ TEST(SettingsJson, RoundTripsEveryField) {
   EXPECT_EQ(back.plain_samples, s.plain_samples);
   EXPECT_EQ(back.up, s.up);
   EXPECT_EQ(back.draws, s.draws);
-  EXPECT_EQ(back.taught_for, s.taught_for);
+  EXPECT_EQ(back.trained_for, s.trained_for);
   EXPECT_EQ(back.words, s.words);
   EXPECT_EQ(back.judge.kernel, s.judge.kernel);
   EXPECT_EQ(back.judge.c, s.judge.c);
@@ -177,7 +177,7 @@ TEST(SettingsJson, NamesAFieldOutOfRange) {
   EXPECT_EQ(error_with("c", std::numeric_limits<double>::quiet_NaN()), "C nan is out of range (above 0)");
   EXPECT_EQ(error_with("draws", 0), "number of draws 0 is out of range (1 to 100)");
   EXPECT_EQ(error_with("up", "w"), "up 'w' is not known (one of none, x, y, z)");
-  EXPECT_EQ(error_with("taught_for", "scans"), "taught_for 'scans' is not known (one of meshes, any, views)");
+  EXPECT_EQ(error_with("trained_for", "scans"), "trained_for 'scans' is not known (one of meshes, any, views)");
   EXPECT_EQ(error_with("words", 1), "number of words 1 is out of range (2 to 65536)");
   EXPECT_EQ(error_with("copies", 101), "number of copies 101 is out of range (0 to 100)");
   EXPECT_EQ(error_with("views", 0), "number of views 0 is out of range (1 to 1000)");

@@ -20,12 +20,12 @@ std::string input_error(Call call) {
 }
 
 // Expects an error of a type whose line contains a text.
-template <class Expected, class Call>
+template <class TableTicket, class Call>
 void expect_error(Call call, const std::string& text) {
   try {
     call();
     ADD_FAILURE() << "no error where one with '" << text << "' is expected";
-  } catch (const Expected& error) {
+  } catch (const TableTicket& error) {
     EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
   }
 }

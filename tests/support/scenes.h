@@ -63,7 +63,7 @@ struct Scene {
   }
 
   // The plane z = 0 in the camera's frame.
-  Table table() const {
+  SupportPlane table() const {
     const Eigen::Vector3f normal = (viewpoint.axes * Vec3::UnitZ()).cast<float>();
     return {normal, static_cast<float>(viewpoint.eye.z())};
   }

@@ -20,7 +20,7 @@
 #include "spincat/parallel/task_farm.h"
 #include "spincat/prepare/as_cloud.h"
 #include "spincat/train/feature_table.h"
-#include "spincat/train/teacher.h"
+#include "spincat/train/judge_trainer.h"
 #include "support/expect_error.h"
 #include "support/shapes.h"
 #include "support/temp_dir.h"
@@ -319,7 +319,7 @@ TEST(Progress, NeverFallsAndReachesTheTotalNeverTwoAtATime) {
 
 TEST(Progress, AnExceptionEndsTheWorkInAnyStage) {
   struct Interrupted {};
-  for (const std::string stage : {"describing objects", "comparing objects", "teaching judges"}) {
+  for (const std::string stage : {"describing objects", "comparing objects", "training judges"}) {
     for (const int threads : {1, 3}) {
       const Progress progress = [&](std::string_view now, std::size_t, std::size_t) {
         if (now == stage) {
@@ -389,7 +389,7 @@ TEST(Describe, CloudCopiesAreClouds) {
   Settings settings = small_settings();
   EXPECT_EQ(settings.training_rows(), 2);
   settings.copies = 2;
-  settings.taught_for = TaughtFor::any;
+  settings.trained_for = TrainedFor::any;
   EXPECT_EQ(settings.training_rows(), 5);
   // As many points as asked for, and not those that can be seen of a mesh: all of them may be drawn from a hidden face.
   const Object object = test::box();
@@ -408,7 +408,7 @@ TEST(Describe, CloudCopiesAreClouds) {
 TEST(TrainForAny, NamesCloudsAsWell) {
   Settings settings = small_settings();
   settings.copies = 2;
-  settings.taught_for = TaughtFor::any;
+  settings.trained_for = TrainedFor::any;
   const Model model = train(shapes(), settings, {false, 2}).model;
   int right = 0;
   for (const DatasetObject& object : shapes().objects) {
@@ -418,7 +418,7 @@ TEST(TrainForAny, NamesCloudsAsWell) {
   EXPECT_GE(right, 20);  // of 24
 }
 
-TEST(TeachJudges, TestObjectsDoNotInfluenceTheCodebook) {
+TEST(TrainJudges, TestObjectsDoNotInfluenceTheCodebook) {
   Settings settings = small_settings();
   settings.encoding = "bag-of-features";
   settings.words = 8;
@@ -429,23 +429,23 @@ TEST(TeachJudges, TestObjectsDoNotInfluenceTheCodebook) {
       train.push_back(object);
     }
   }
-  const auto teach = [&] {
-    OwnFarm farm(2);
-    return Teacher(table, settings.judge, farm.farm(), {}).teach(train);
+  const auto train = [&] {
+    LocalFarm farm(2);
+    return JudgeTrainer(table, settings.judge, farm.farm(), {}).train(train);
   };
-  const JudgeList before = teach();
+  const JudgeList before = train();
   EXPECT_EQ(before.codebook.words.rows(), 8);
   const std::vector<std::uint32_t> tested = {0, 3, 6, 9, 12, 15, 18, 21};
   for (const std::uint32_t row : table.rows_of(tested)) {
     table.features.row(row).setConstant(7.0F);
   }
-  const JudgeList after = teach();
+  const JudgeList after = train();
   EXPECT_TRUE(after.codebook.words == before.codebook.words);
   EXPECT_TRUE(after.weights == before.weights);
   for (const std::uint32_t row : table.rows_of(std::vector<std::uint32_t>{1})) {
     table.features.row(row).setConstant(7.0F);
   }
-  EXPECT_FALSE(teach().codebook.words == before.codebook.words);  // a training object does
+  EXPECT_FALSE(train().codebook.words == before.codebook.words);  // a training object does
 }
 
 class Variant : public testing::TestWithParam<std::pair<const char*, KernelKind>> {};

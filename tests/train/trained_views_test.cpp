@@ -1,4 +1,4 @@
-// Judges that are taught by rendered views.
+// Judges that are trained by rendered views.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using test::input_error;
 using test::TempDir;
 
 Settings view_settings(int views) {
-  return taught_by_views(test::tiny_settings(), views);
+  return trained_by_views(test::tiny_settings(), views);
 }
 
 class Views : public testing::Test {
@@ -67,7 +67,7 @@ TEST(DescribeViews, ACloudIsAViewAlready) {
   const PointCloud cloud = view_of(test::box(1, 2, 3), {}, 5);
   const std::vector<float> seen = describe(cloud, settings).values;
   // The same as a cloud among others, but for the axis that points up: z, whichever it is in models.
-  settings.taught_for = TaughtFor::any;
+  settings.trained_for = TrainedFor::any;
   settings.up = UpAxis::z;
   EXPECT_EQ(describe(cloud, settings).values, seen);
 }
@@ -101,7 +101,7 @@ TEST_F(Views, TrainedJudgesNameNewViews) {
     for (int k = 0; k < 4; ++k) {
       const PointCloud view = view_of(test::tiny_shape(model.categories[category], 2), {}, 100 + k);
       const Classification named = classify(model, view);
-      EXPECT_EQ(named.misfit, "");
+      EXPECT_EQ(named.kind_mismatch, "");
       right += named.ballot.winner == category ? 1 : 0;
     }
   }
@@ -139,13 +139,13 @@ TEST_F(Views, EvaluationAcrossRendersTheTestedObjects) {
   ASSERT_EQ(found.tested.size(), 6U);
   EXPECT_EQ(found.views.size(), 3U);
   EXPECT_GE(found.overall_rate.mean, 0.66);
-  EXPECT_EQ(found.misfit, "");
+  EXPECT_EQ(found.kind_mismatch, "");
 }
 
 TEST_F(Views, EvaluationTestsViewsInNoOtherForm) {
   EvaluateOptions options;
   options.test.form = TestForm::cloud;
-  EXPECT_NE(input_error([&] { evaluate(shapes(), view_settings(2), options); }).find("taught by views"),
+  EXPECT_NE(input_error([&] { evaluate(shapes(), view_settings(2), options); }).find("trained by views"),
             std::string::npos);
 }
 
@@ -153,25 +153,25 @@ TEST_F(Views, EvaluationTellsOfClouds) {
   EvaluateOptions options;
   options.splits = 1;
   options.test.form = TestForm::cloud;
-  EXPECT_NE(evaluate(shapes(), test::tiny_settings(), options).misfit.find("is a point cloud"), std::string::npos);
+  EXPECT_NE(evaluate(shapes(), test::tiny_settings(), options).kind_mismatch.find("is a point cloud"), std::string::npos);
   Settings any = test::tiny_settings();
-  any.taught_for = TaughtFor::any;
-  EXPECT_EQ(evaluate(shapes(), any, options).misfit, "");
+  any.trained_for = TrainedFor::any;
+  EXPECT_EQ(evaluate(shapes(), any, options).kind_mismatch, "");
 }
 
 TEST(Misfit, IsWhatTheJudgesNeverMet) {
   const KindCounts meshes{5, 0};
   const KindCounts clouds{0, 5};
   const KindCounts both{5, 5};
-  EXPECT_EQ(misfit(ObjectKind::mesh, meshes, TaughtFor::meshes), "");
-  EXPECT_EQ(misfit(ObjectKind::cloud, clouds, TaughtFor::meshes), "");
-  EXPECT_EQ(misfit(ObjectKind::cloud, both, TaughtFor::meshes), "");
-  EXPECT_NE(misfit(ObjectKind::cloud, meshes, TaughtFor::meshes), "");
-  EXPECT_NE(misfit(ObjectKind::mesh, clouds, TaughtFor::meshes), "");
-  EXPECT_EQ(misfit(ObjectKind::cloud, meshes, TaughtFor::any), "");
-  EXPECT_EQ(misfit(ObjectKind::mesh, clouds, TaughtFor::any), "");
-  EXPECT_EQ(misfit(ObjectKind::cloud, meshes, TaughtFor::views), "");
-  EXPECT_NE(misfit(ObjectKind::mesh, meshes, TaughtFor::views), "");
+  EXPECT_EQ(kind_mismatch(ObjectKind::mesh, meshes, TrainedFor::meshes), "");
+  EXPECT_EQ(kind_mismatch(ObjectKind::cloud, clouds, TrainedFor::meshes), "");
+  EXPECT_EQ(kind_mismatch(ObjectKind::cloud, both, TrainedFor::meshes), "");
+  EXPECT_NE(kind_mismatch(ObjectKind::cloud, meshes, TrainedFor::meshes), "");
+  EXPECT_NE(kind_mismatch(ObjectKind::mesh, clouds, TrainedFor::meshes), "");
+  EXPECT_EQ(kind_mismatch(ObjectKind::cloud, meshes, TrainedFor::any), "");
+  EXPECT_EQ(kind_mismatch(ObjectKind::mesh, clouds, TrainedFor::any), "");
+  EXPECT_EQ(kind_mismatch(ObjectKind::cloud, meshes, TrainedFor::views), "");
+  EXPECT_NE(kind_mismatch(ObjectKind::mesh, meshes, TrainedFor::views), "");
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace spincat {
 
 Classification classify(const Model& model, const Object& object, const EncodePrepared& elsewhere) {
   Classification result;
-  result.misfit = misfit(kind_of(object), model.kinds, model.settings.taught_for);
+  result.kind_mismatch = kind_mismatch(kind_of(object), model.kinds, model.settings.trained_for);
   const FeatureVector features = describe(object, model.settings, 0, &result.seconds, elsewhere);
   if (features.values.size() != model.feature_length()) {
     throw InputError(

@@ -39,7 +39,7 @@ std::string pack(const Answer& answer) {
       margins.push_back(vote.margin);
     }
     packer.add(std::span<const float>(margins)).add(answer.classification->confidence);
-    packer.add(std::string_view(answer.classification->misfit));
+    packer.add(std::string_view(answer.classification->kind_mismatch));
     pack_seconds(packer, answer.classification->seconds);
   }
   return packer.take();
@@ -53,7 +53,7 @@ Answer unpack_answer(std::string_view bytes, std::size_t categories) {
     Classification& c = answer.classification.emplace();
     c.ballot = count_votes(static_cast<std::uint32_t>(categories), fields.get_values<float>());
     c.confidence = fields.get<double>();
-    c.misfit = fields.get_text();
+    c.kind_mismatch = fields.get_text();
     c.seconds = unpack_seconds(fields);
   }
   return answer;

@@ -103,11 +103,11 @@ class PairJudge {
 };
 
 // Each point's share of the margin; false where the encoding knows no shares. `bias`: a point's part of it.
-bool share_of_margin(const PairJudge& judge, double bias, EncodedPart& part) {
+bool contribution(const PairJudge& judge, double bias, EncodedPart& part) {
   std::vector<double> shares(part.spin_points().size(), 0.0);
   bool known = true;
   part.for_each_block([&](const SpinImageBlock& block) {
-    known = known && part.encoder->add_shares(block, part.sums, part.place(judge.weights()), shares);
+    known = known && part.encoder->add_contributions(block, part.sums, part.place(judge.weights()), shares);
   });
   for (std::size_t k = 0; known && k < shares.size(); ++k) {
     part.evidence.push_back(static_cast<float>(static_cast<double>(part.prepared->factor) * shares[k] + bias));
@@ -115,14 +115,14 @@ bool share_of_margin(const PairJudge& judge, double bias, EncodedPart& part) {
   return known;
 }
 
-bool share_of_margin(const PairJudge& judge, std::span<EncodedPart> parts) {
+bool contribution(const PairJudge& judge, std::span<EncodedPart> parts) {
   double points = 0.0;
   for (const EncodedPart& part : parts) {
     points += static_cast<double>(part.spin_points().size());
   }
   const double bias = static_cast<double>(judge.bias()) / points;
   return judge.is_linear() &&
-         std::ranges::all_of(parts, [&](EncodedPart& part) { return share_of_margin(judge, bias, part); });
+         std::ranges::all_of(parts, [&](EncodedPart& part) { return contribution(judge, bias, part); });
 }
 
 // By how much the margin falls without each of the first points of a part. `whole`: the object's feature vector.
@@ -157,7 +157,7 @@ Evidence explain(const Model& model, const Object& object, const Ballot& ballot)
     std::ranges::transform(place, part.values, place.begin(),
                            [&](float sum, float value) { return sum + part.prepared->factor * value; });
   }
-  if (!share_of_margin(judge, parts)) {
+  if (!contribution(judge, parts)) {
     result.kind = EvidenceKind::leaving_out;
     for (EncodedPart& part : parts) {
       leave_out(judge, whole, part);

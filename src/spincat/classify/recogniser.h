@@ -62,7 +62,7 @@ struct FrameSeconds {
 struct SeenFrame {
   FrameStatus status = FrameStatus::few_readings;
   double median_depth = 0.0;  // of the readings, in metres; 0 where there are none
-  std::optional<Table> table;
+  std::optional<SupportPlane> table;
   Segmentation segmentation;        // ids has no pixels where there is no table
   std::vector<SeenObject> objects;  // in the order of segmentation.objects
   FrameSeconds seconds;
@@ -95,7 +95,7 @@ class Recogniser {
   const Model& model_;
   RecogniserSettings settings_;
   int threads_;
-  std::optional<Table> table_;
+  std::optional<SupportPlane> table_;
   Tracks tracks_;
   std::map<std::uint64_t, Memory> memory_;  // by track
 };

@@ -72,7 +72,7 @@ PointCloud view_number(const Mesh& mesh, const Settings& settings, int view) {
 // What copy number `copy` of an object is: stretched, or stretched and turned into a cloud, or a view. Nothing where it
 // is the object itself.
 std::optional<Object> shape_of_copy(const Object& object, const Settings& settings, int copy) {
-  if (settings.taught_for == TaughtFor::views) {
+  if (settings.trained_for == TrainedFor::views) {
     const Mesh* const mesh = std::get_if<Mesh>(&object);
     return mesh != nullptr ? std::optional<Object>(view_number(*mesh, settings, copy)) : std::nullopt;
   }
@@ -107,7 +107,7 @@ std::vector<Part> parts_of(const Settings& settings) {
     parts.push_back({SurfaceKind::samples, UpAxis::none});
   }
   if (settings.up != UpAxis::none) {
-    const UpAxis up = settings.taught_for == TaughtFor::views ? UpAxis::z : settings.up;
+    const UpAxis up = settings.trained_for == TrainedFor::views ? UpAxis::z : settings.up;
     parts.push_back({settings.prepare.surface, up});
   }
   return parts;
@@ -134,7 +134,7 @@ Preparation prepare_part(const Object& shape, const Settings& settings, const Pa
 }
 
 // Whether the points of `next` are those of `part`, but for the axes.
-bool shares_points(const Part& part, const Part& next) {
+bool same_points(const Part& part, const Part& next) {
   return part.surface == next.surface && part.axes == UpAxis::none;
 }
 
@@ -198,7 +198,7 @@ FeatureVector describe(const Object& object, const Settings& settings, int copy,
     const Part& part = parts[k];
     FeatureVector mean;
     for (int draw = 0; draw < settings.draws; ++draw) {
-      if (settings.draws == 1 && k > 0 && shares_points(parts[k - 1], part)) {
+      if (settings.draws == 1 && k > 0 && same_points(parts[k - 1], part)) {
         turn_axes(part.axes, preparation.object.spin_points);
       } else {
         preparation = prepare_part(shape, settings, part, seed_of(settings, copy, draw));

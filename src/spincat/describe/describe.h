@@ -20,7 +20,7 @@ struct StageSeconds {
   double prepare = 0.0;
   double spin = 0.0;
   double encode = 0.0;
-  double judge = 0.0;  // teaching or voting
+  double judge = 0.0;  // training or voting
   StageSeconds& operator+=(const StageSeconds& other);
 };
 
@@ -35,7 +35,7 @@ using EncodePrepared = std::function<FeatureVector(const Preparation&)>;
 
 // The feature vector of an object, or of its training copy number `copy`, 1 to settings.training_rows() - 1: the first
 // settings.copies are stretched, those after them are stretched and turned into clouds of settings.prepare.points
-// points, every other one exact and every other one with noise of 1 % of the diameter. With TaughtFor::views a mesh is
+// points, every other one exact and every other one with noise of 1 % of the diameter. With TrainedFor::views a mesh is
 // view number `copy` of it (camera/render/views.h), 0 included, no two meshes being looked at from the same places; a
 // cloud is taken to be a view and to stand upright, z up. On this thread unless `elsewhere` says otherwise.
 // Deterministic. Adds the time spent to `seconds` where one is given. Throws InputError (without a file name) when the

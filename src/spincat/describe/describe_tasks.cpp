@@ -110,14 +110,14 @@ std::string pack(const Described& described) {
   return packer.take();
 }
 
-PackedDescribed look_at_described(std::string_view bytes) {
+PackedDescribed view_described(std::string_view bytes) {
   Unpacker fields(bytes);
   PackedDescribed described;
   described.head.problem = fields.get_text();
   described.head.kind = fields.get<ObjectKind>();
   described.head.seconds = unpack_seconds(fields);
   while (!fields.empty()) {
-    auto [head, values] = look_at_features(fields);
+    auto [head, values] = view_features(fields);
     described.head.features.push_back(std::move(head));
     described.values.push_back(values);
   }
@@ -125,7 +125,7 @@ PackedDescribed look_at_described(std::string_view bytes) {
 }
 
 Described unpack_described(std::string_view bytes) {
-  auto [described, values] = look_at_described(bytes);
+  auto [described, values] = view_described(bytes);
   for (std::size_t i = 0; i < values.size(); ++i) {
     std::vector<float>& numbers = described.features[i].values;
     numbers.resize(values[i].length());
@@ -158,7 +158,7 @@ RankWork make_describe_work(std::string_view context, std::optional<TableRows>& 
     make_room();
     rows.emplace(rows_to_keep, static_cast<std::size_t>(views));
     result.keep = [&rows](std::size_t task, std::string_view described) {
-      const std::vector<FeatureBytes> values = look_at_described(described).values;
+      const std::vector<FeatureBytes> values = view_described(described).values;
       if (!values.empty()) {
         rows->put(task, values);
       }
@@ -182,7 +182,7 @@ void describe_files(TaskFarm& farm, const DescribeJob& job, const DeliverDescrib
   };
   if (job.keeps_rows) {
     tasks.tells_all = [&](std::string_view result) -> std::optional<bool> {
-      const std::vector<FeatureBytes> values = look_at_described(result).values;
+      const std::vector<FeatureBytes> values = view_described(result).values;
       if (values.empty()) {
         return std::nullopt;
       }
@@ -194,7 +194,7 @@ void describe_files(TaskFarm& farm, const DescribeJob& job, const DeliverDescrib
   tasks.tasks = job.files;
   tasks.task = [&](std::size_t i) { return job.file(i).string(); };
   tasks.deliver = [&](std::size_t i, const std::string& result) {
-    const PackedDescribed described = look_at_described(result);
+    const PackedDescribed described = view_described(result);
     deliver(i, described.head, described.values);
   };
   farm.run(tasks, tick);

@@ -50,7 +50,7 @@ struct PackedDescribed {
   Described head;
   std::vector<FeatureBytes> values;
 };
-PackedDescribed look_at_described(std::string_view bytes);
+PackedDescribed view_described(std::string_view bytes);
 
 // Which files, and how.
 struct DescribeJob {

@@ -21,8 +21,8 @@ struct KindCounts {
   void add(ObjectKind kind) { ++(kind == ObjectKind::mesh ? meshes : clouds); }
 };
 
-// Why judges that were taught so, on these objects, should not be trusted with one of that kind: "is a mesh, but ...";
+// Why judges that were trained so, on these objects, should not be trusted with one of that kind: "is a mesh, but ...";
 // empty where they may be.
-std::string misfit(ObjectKind met, const KindCounts& learned, TaughtFor taught_for);
+std::string kind_mismatch(ObjectKind met, const KindCounts& learned, TrainedFor trained_for);
 
 }  // namespace spincat

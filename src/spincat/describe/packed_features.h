@@ -26,7 +26,7 @@ struct PackedFeatures {
   FeatureBytes values;
 };
 
-inline PackedFeatures look_at_features(Unpacker& fields) {
+inline PackedFeatures view_features(Unpacker& fields) {
   const std::string_view numbers = fields.get_text();
   if (numbers.size() % sizeof(float) != 0) {
     throw RunError("a message between ranks holds half a number");

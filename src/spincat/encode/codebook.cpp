@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "spincat/geometry/random.h"
-#include "spincat/geometry/share_out.h"
+#include "spincat/geometry/parallel_for.h"
 
 namespace spincat {
 namespace {
@@ -50,7 +50,7 @@ std::vector<std::uint32_t> nearest_words(const Eigen::Ref<const Rows>& rows, con
     }
     return nearest;
   }
-  share_out(static_cast<std::size_t>(chunks), threads,
+  parallel_for(static_cast<std::size_t>(chunks), threads,
             [&](std::size_t chunk) { find(static_cast<Eigen::Index>(chunk)); });
   return nearest;
 }

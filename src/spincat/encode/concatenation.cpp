@@ -24,7 +24,7 @@ class ConcatenatedSums final : public Encoding::ObjectSums {
     return {{values.begin(), values.end()}, {static_cast<std::uint32_t>(values.size())}, "concatenation"};
   }
 
-  bool add_shares(const SpinImageBlock& block, std::span<const double> sums, std::span<const float> weights,
+  bool add_contributions(const SpinImageBlock& block, std::span<const double> sums, std::span<const float> weights,
                   std::span<double> shares) const override {
     const std::size_t image = block.images.shape().size();
     const std::vector<float> values = finish(sums).values;

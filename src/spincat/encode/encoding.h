@@ -60,7 +60,7 @@ class Encoding::ObjectSums {
   // what they are in `sums` (those of all blocks): adds to shares[first + k] what image k of the block gives to
   // weights . finish(sums).values. The shares of all images add up to that product. False, and nothing done, where the
   // encoding knows no such shares.
-  virtual bool add_shares(const SpinImageBlock& /*block*/, std::span<const double> /*sums*/,
+  virtual bool add_contributions(const SpinImageBlock& /*block*/, std::span<const double> /*sums*/,
                           std::span<const float> /*weights*/, std::span<double> /*shares*/) const {
     return false;
   }

@@ -51,7 +51,7 @@ class PyramidSums final : public Encoding::ObjectSums {
   FeatureVector finish(std::span<const double> sums) const override { return finish_bands(sums, images_in_band_); }
 
   // A mean is the sum of the images' roots r / n, and a deviation s = s^2 / s the sum of their (r - mean)^2 / (n s).
-  bool add_shares(const SpinImageBlock& block, std::span<const double> sums, std::span<const float> weights,
+  bool add_contributions(const SpinImageBlock& block, std::span<const double> sums, std::span<const float> weights,
                   std::span<double> shares) const override {
     const std::vector<Gives> gives = gives_of(sums, weights);
     Levels levels(shape_.columns);

@@ -10,8 +10,8 @@
 #include "spincat/evaluate/roc.h"
 #include "spincat/evaluate/trial.h"
 #include "spincat/parallel/task_farm.h"
-#include "spincat/train/sharing.h"
-#include "spincat/train/teacher.h"
+#include "spincat/train/judge_trainer.h"
+#include "spincat/train/worth_broadcasting.h"
 
 namespace spincat {
 namespace {
@@ -69,29 +69,29 @@ std::vector<Split> splits_of(const EvaluationData& data, const Settings& setting
 std::vector<Trial> run_trials(const EvaluationData& data, const std::vector<Split>& splits, const Settings& settings,
                               const EvaluateOptions& options, const Progress& progress) {
   const bool confidence = options.calibrates();
-  OwnFarm own(options.threads);
+  LocalFarm own(options.threads);
   TaskFarm& farm = options.farm != nullptr ? *options.farm : own.farm();
-  const TeachingPlan plan = plan_of(splits.size(), confidence);
-  Teacher teacher(data.table, settings.judge, farm, plan, progress);
+  const std::size_t trainings = count_trainings(splits.size(), confidence);
+  JudgeTrainer trainer(data.table, settings.judge, farm, trainings, progress);
   std::vector<Trial> trials;
   if (splits.size() == 1) {  // shared out by its judges
-    trials.push_back(run_trial(trial_data(data), teacher, splits[0], settings, confidence));
+    trials.push_back(run_trial(trial_data(data), trainer, splits[0], settings, confidence));
     return trials;
   }
   Job job;
   job.kind = kTrialTasks;
-  job.stays_here = !teacher.is_shared();
+  job.stays_here = !trainer.is_shared();
   job.context = [&](Packer& packer) {
-    pack_trials(trial_data(data), teacher.expected(), settings, confidence, packer);
+    pack_trials(trial_data(data), trainer.expected(), settings, confidence, packer);
   };
   job.identity = [&](Packer& packer) { pack_trials_identity(trial_data(data), settings, confidence, packer); };
-  job.work = trial_work(trial_data(data), teacher.gram(), settings, confidence);
+  job.work = trial_work(trial_data(data), trainer.gram(), settings, confidence);
   job.tasks = splits.size();
   job.task = [&](std::size_t i) { return pack(splits[i]); };
   job.deliver = [&](std::size_t, const std::string& result) {
     trials.push_back(unpack_trial(result, data.table.categories.size()));
   };
-  teacher.farm().run(job, [&](std::size_t done) {
+  trainer.farm().run(job, [&](std::size_t done) {
     if (progress) {
       progress("judging splits", done, splits.size());
     }
@@ -180,15 +180,15 @@ ConfidenceMeasure measure_of(std::span<const Trial> trials) {
   ConfidenceMeasure measure;
   std::vector<double> right;
   std::vector<double> wrong;
-  std::vector<double> strangers;
+  std::vector<double> unknown_objects;
   double known_or_unknown = 0.0;
   for (const Trial& trial : trials) {
     std::vector<double> known = trial.right;
     known.insert(known.end(), trial.wrong.begin(), trial.wrong.end());
-    known_or_unknown += area_under_curve(known, trial.strangers);
+    known_or_unknown += area_under_curve(known, trial.unknown_objects);
     right.insert(right.end(), trial.right.begin(), trial.right.end());
     wrong.insert(wrong.end(), trial.wrong.begin(), trial.wrong.end());
-    measure.strangers = static_cast<std::uint32_t>(trial.strangers.size());
+    measure.unknown_objects = static_cast<std::uint32_t>(trial.unknown_objects.size());
   }
   measure.right_or_wrong = area_under_curve(right, wrong);
   measure.known_or_unknown = known_or_unknown / static_cast<double>(trials.size());
@@ -217,13 +217,13 @@ std::vector<DatasetObject> described_objects(const TestTable& tested) {
 }
 
 // Of meshes that are tested by their views nothing is to be said.
-std::string misfit_of(const EvaluationData& data, const Settings& settings) {
-  if (!data.tested || settings.taught_for == TaughtFor::views) {
+std::string kind_mismatch_of(const EvaluationData& data, const Settings& settings) {
+  if (!data.tested || settings.trained_for == TrainedFor::views) {
     return {};
   }
   for (const auto& [kind, count] : {std::pair(ObjectKind::mesh, data.tested->kinds.meshes),
                                     std::pair(ObjectKind::cloud, data.tested->kinds.clouds)}) {
-    std::string reason = misfit(kind, data.table.kinds, settings.taught_for);
+    std::string reason = kind_mismatch(kind, data.table.kinds, settings.trained_for);
     if (count > 0 && !reason.empty()) {
       return reason;
     }
@@ -251,7 +251,7 @@ Evaluation facts_of(const EvaluationData& data, const EvaluateOptions& options) 
   result.left_out = data.left_out;
   result.skipped = data.table.skipped;
   result.seconds = data.table.seconds;
-  for (const TestTable* tested : {data.tested ? &*data.tested : nullptr, &data.strangers}) {
+  for (const TestTable* tested : {data.tested ? &*data.tested : nullptr, &data.unknown_objects}) {
     if (tested != nullptr) {
       list_problems(*tested, result.skipped);
       result.seconds += tested->seconds;
@@ -292,7 +292,7 @@ Evaluation judge_evaluation(const EvaluationData& data, const Settings& settings
   Stopwatch watch;
   const std::vector<Split> splits = splits_of(data, settings, options);
   Evaluation result = facts_of(data, options);
-  result.misfit = misfit_of(data, settings);
+  result.kind_mismatch = kind_mismatch_of(data, settings);
   result.splits = result.protocol == Protocol::splits ? options.splits : 1;
   if (result.protocol == Protocol::splits) {
     result.split_seeds = seeds_of(options, settings);

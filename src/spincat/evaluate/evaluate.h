@@ -1,4 +1,4 @@
-// Measuring: how often the judges are right on objects that they were not taught on.
+// Measuring: how often the judges are right on objects that they were not trained on.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,7 +25,7 @@ class TaskFarm;
 // Which objects are learned from and which are tested.
 enum class Protocol {
   splits,         // repeated stratified random splits of one data set
-  leave_one_out,  // each object by judges that were taught on all others
+  leave_one_out,  // each object by judges that were trained on all others
   across,         // all objects of another data set (or of the data set's own test part), once
 };
 
@@ -38,8 +38,8 @@ struct EvaluateOptions {
                                            // described once for all splits of all seeds
   int fewest_objects = 1;                  // categories with fewer objects to learn from are left out, 1 to 1,000,000
   TestOptions test;                        // how the tested objects are shown
-  bool measure_confidence = false;         // calibrates in each split, too: six times the teaching
-  std::vector<std::filesystem::path> strangers;  // files of objects of none of the categories; asks for the above
+  bool measure_confidence = false;         // calibrates in each split, too: six times the training
+  std::vector<std::filesystem::path> unknown_objects;  // files of objects of none of the categories; asks for the above
   bool strict = false;       // an object that cannot be read ends the evaluation instead of being left out
   int threads = 1;           // 1 or more; never changes the result
   TaskFarm* farm = nullptr;  // describes the objects on its threads and ranks; never changes the result either
@@ -47,7 +47,7 @@ struct EvaluateOptions {
 
   // Throws InputError naming the option, its value and the allowed range.
   void validate() const;
-  bool calibrates() const { return measure_confidence || !strangers.empty(); }
+  bool calibrates() const { return measure_confidence || !unknown_objects.empty(); }
 };
 
 // The rates over the splits of one seed.
@@ -58,12 +58,12 @@ struct SeedRates {
 };
 
 // What the confidence tells, as areas under the curve (roc.h). Confidences are of the judges of each split in objects
-// that they were not taught on.
+// that they were not trained on.
 struct ConfidenceMeasure {
   double right_or_wrong = 0.5;    // tested objects named right against those named wrong, of all splits together
-  double known_or_unknown = 0.5;  // tested objects against strangers, the mean over the splits
+  double known_or_unknown = 0.5;  // tested objects against unknown objects, the mean over the splits
   double mean_confidence = 0.0;   // over the tested objects of all splits; close to their overall rate when calibrated
-  std::uint32_t strangers = 0;    // how many could be read, each counted by its views
+  std::uint32_t unknown_objects = 0;    // how many could be read, each counted by its views
 };
 
 // Rates by the number of views of an object over which votes are summed.
@@ -97,13 +97,13 @@ struct Evaluation {
   Rate overall_rate;     // right votes over all votes
   std::vector<Rate> category_rates;  // n: over the splits that tested the category
   std::vector<SeedRates> seeds;      // with Protocol::splits
-  std::vector<ViewsRates> views;     // with TaughtFor::views: 1, 2, 4, ... and all views; the rates above are of all
+  std::vector<ViewsRates> views;     // with TrainedFor::views: 1, 2, 4, ... and all views; the rates above are of all
   Confusion confusion;               // added up over the splits
   std::vector<TestedObject> tested;  // all that could be, in the order of the data set: confusion[i][j] is how often
                                      // objects of category i were named j
   std::optional<ConfidenceMeasure> confidence;
-  std::string misfit;         // why the judges should not be trusted with the tested objects (kinds.h); mostly empty
-  StageSeconds seconds;       // added up over threads; judge: teaching and voting
+  std::string kind_mismatch;         // why the judges should not be trusted with the tested objects (kinds.h); mostly empty
+  StageSeconds seconds;       // added up over threads; judge: training and voting
   double wall_seconds = 0.0;  // of everything
 };
 
@@ -115,7 +115,7 @@ struct EvaluationData {
   FeatureTable table;               // to learn from, and to test unless there is `tested`
   std::optional<TestTable> tested;  // the objects of another data set, or those of `table` in another form
   bool across = false;              // `tested` is another data set
-  TestTable strangers;
+  TestTable unknown_objects;
   std::vector<LeftOutCategory> left_out;
   double wall_seconds = 0.0;
 };
@@ -130,7 +130,7 @@ EvaluationData describe_for_evaluation(const Dataset& dataset, const Settings& s
 EvaluationData describe_across(const Dataset& train, const Dataset& test, const Settings& settings,
                                const EvaluateOptions& options, const Progress& progress = {});
 
-// For each split teaches the judges on the training objects and their copies, and lets them vote on the test objects.
+// For each split trains the judges on the training objects and their copies, and lets them vote on the test objects.
 // The result is the same for the same data, settings and options, whatever the number of threads. A category with a
 // single object is never tested by splits; leaving that object out tests the judges of the other categories on it.
 // Intervals: over splits as rate_over_splits, otherwise as the pooled rates (rates.h).

@@ -10,7 +10,7 @@
 #include "spincat/error.h"
 #include "spincat/evaluate/evaluate.h"
 #include "spincat/parallel/task_farm.h"
-#include "spincat/train/sharing.h"
+#include "spincat/train/worth_broadcasting.h"
 
 namespace spincat {
 namespace {
@@ -25,7 +25,7 @@ void check_all_described(const TestTable& tested) {
 
 TestTable described(std::span<const DatasetObject> objects, const EvaluationData& data, const Settings& settings,
                     const TestOptions& test, const EvaluateOptions& options, const Progress& progress) {
-  OwnFarm own(options.threads);
+  LocalFarm own(options.threads);
   TaskFarm& farm = options.farm != nullptr ? *options.farm : own.farm();
   TestTable tested =
       describe_tested(objects, static_cast<std::size_t>(data.table.features.cols()), settings, test, farm, progress);
@@ -37,8 +37,8 @@ TestTable described(std::span<const DatasetObject> objects, const EvaluationData
 
 // Views are made of the objects as they are.
 void check_form(const Settings& settings, const EvaluateOptions& options) {
-  if (settings.taught_for == TaughtFor::views && options.test.form != TestForm::as_is) {
-    throw InputError("judges taught by views are tested on views: no other form of the tested objects is possible");
+  if (settings.trained_for == TrainedFor::views && options.test.form != TestForm::as_is) {
+    throw InputError("judges trained by views are tested on views: no other form of the tested objects is possible");
   }
 }
 
@@ -50,23 +50,23 @@ std::size_t splits_in_sight(const EvaluateOptions& options, std::size_t objects)
   return static_cast<std::size_t>(options.splits) * std::max<std::size_t>(1, options.split_seeds.size());
 }
 
-// What both kinds have in common: the objects to learn from, and the strangers.
+// What both kinds have in common: the objects to learn from, and the unknown objects.
 EvaluationData describe_known(const Dataset& dataset, std::size_t splits, const Settings& settings,
                               const EvaluateOptions& options, const Progress& progress) {
   EvaluationData data;
   data.dataset = dataset.name;
-  OwnFarm own(options.threads);
+  LocalFarm own(options.threads);
   TaskFarm& farm = options.farm != nullptr ? *options.farm : own.farm();
   data.table = describe_dataset(dataset, settings, options.strict, farm, options.division,
-                                plan_of(splits, options.calibrates()), progress);
-  std::vector<DatasetObject> strangers;
-  for (const std::filesystem::path& file : options.strangers) {
-    strangers.push_back({file, 0, ""});
+                                count_trainings(splits, options.calibrates()), progress);
+  std::vector<DatasetObject> unknown_objects;
+  for (const std::filesystem::path& file : options.unknown_objects) {
+    unknown_objects.push_back({file, 0, ""});
   }
   // As they are: whether a stranger is turned or sampled, it stays a stranger.
   TestOptions as_they_are;
   as_they_are.limits = options.test.limits;
-  data.strangers = described(strangers, data, settings, as_they_are, options, progress);
+  data.unknown_objects = described(unknown_objects, data, settings, as_they_are, options, progress);
   return data;
 }
 

@@ -51,7 +51,7 @@ Confusion unpack_confusion(Unpacker& fields, std::size_t categories) {
 }
 
 std::string pack(const Trial& trial) {
-  const auto& [confusion, by_views, named, right, wrong, strangers] = trial;
+  const auto& [confusion, by_views, named, right, wrong, unknown_objects] = trial;
   Packer packer;
   pack_confusion(packer, confusion);
   packer.add(static_cast<std::uint64_t>(by_views.size()));
@@ -60,14 +60,14 @@ std::string pack(const Trial& trial) {
   }
   packer.add(std::span<const std::uint32_t>(named));
   packer.add(std::span<const double>(right)).add(std::span<const double>(wrong));
-  packer.add(std::span<const double>(strangers));
+  packer.add(std::span<const double>(unknown_objects));
   return packer.take();
 }
 
 // But for the table.
 void pack_rest(const TrialData& data, const Settings& settings, bool measure_confidence, Packer& packer) {
   packer.add(settings_to_json(settings).dump()).add(measure_confidence).add(data.tested != nullptr);
-  pack_tested(packer, data.strangers);
+  pack_tested(packer, data.unknown_objects);
   if (data.tested != nullptr) {
     pack_tested(packer, *data.tested);
   }
@@ -96,7 +96,7 @@ void count_groups(std::span<const Ballot> ballots, std::uint32_t views, std::uin
 }  // namespace
 
 TrialData trial_data(const EvaluationData& data) {
-  return {data.table, data.tested ? &*data.tested : nullptr, data.strangers};
+  return {data.table, data.tested ? &*data.tested : nullptr, data.unknown_objects};
 }
 
 std::vector<std::uint32_t> view_counts(std::uint32_t views) {
@@ -110,12 +110,12 @@ std::vector<std::uint32_t> view_counts(std::uint32_t views) {
   return counts;
 }
 
-Trial run_trial(const TrialData& data, Teacher& teacher, const Split& split, const Settings& settings,
+Trial run_trial(const TrialData& data, JudgeTrainer& trainer, const Split& split, const Settings& settings,
                 bool measure_confidence) {
   const FeatureTable& table = data.table;
   const std::size_t n = table.categories.size();
-  const auto [judges, calibration] = measure_confidence ? teacher.teach_calibrated(split.train, settings.seed)
-                                                        : CalibratedJudges{teacher.teach(split.train), {}};
+  const auto [judges, calibration] = measure_confidence ? trainer.train_calibrated(split.train, settings.seed)
+                                                        : CalibratedJudges{trainer.train(split.train), {}};
   const Familiarity familiarity = measure_confidence ? familiarity_of(table, split.train) : Familiarity{};
   const auto confidence = [&, &calibration = calibration](const Ballot& ballot, std::span<const float> features) {
     return calibration.confidence(ballot, familiarity.of(features, ballot.winner));
@@ -141,11 +141,11 @@ Trial run_trial(const TrialData& data, Teacher& teacher, const Split& split, con
       count_groups(ballots, groups[g], truth, trial.by_views[g]);
     }
   }
-  for (std::uint32_t object = 0; measure_confidence && object < data.strangers.objects.size(); ++object) {
-    for (std::uint32_t view = 0; view < data.strangers.rows_per_object; ++view) {
-      if (data.strangers.problems[object].empty()) {
-        const std::span<const float> features = data.strangers.features_of(object, view);
-        trial.strangers.push_back(confidence(judges.vote(features), features));
+  for (std::uint32_t object = 0; measure_confidence && object < data.unknown_objects.objects.size(); ++object) {
+    for (std::uint32_t view = 0; view < data.unknown_objects.rows_per_object; ++view) {
+      if (data.unknown_objects.problems[object].empty()) {
+        const std::span<const float> features = data.unknown_objects.features_of(object, view);
+        trial.unknown_objects.push_back(confidence(judges.vote(features), features));
       }
     }
   }
@@ -168,13 +168,13 @@ Trial unpack_trial(std::string_view result, std::size_t categories) {
   trial.named = fields.get_values<std::uint32_t>();
   trial.right = fields.get_values<double>();
   trial.wrong = fields.get_values<double>();
-  trial.strangers = fields.get_values<double>();
+  trial.unknown_objects = fields.get_values<double>();
   return trial;
 }
 
-void pack_trials(const TrialData& data, const Expected& expected, const Settings& settings, bool measure_confidence,
+void pack_trials(const TrialData& data, const TableTicket& expected, const Settings& settings, bool measure_confidence,
                  Packer& packer) {
-  pack_expected(expected, packer);
+  pack_ticket(expected, packer);
   pack_rest(data, settings, measure_confidence, packer);
 }
 
@@ -190,27 +190,27 @@ void pack_trials_identity(const TrialData& data, const Settings& settings, bool 
   pack_rest(data, settings, measure_confidence, packer);
 }
 
-Work trial_work(const TrialData& data, const SharedGram& gram, const Settings& settings, bool measure_confidence) {
+Work trial_work(const TrialData& data, const GramMatrices& gram, const Settings& settings, bool measure_confidence) {
   return [data, &gram, settings, measure_confidence](std::string_view bytes) {
     Unpacker fields(bytes);
     Split split;
     split.train = fields.get_values<std::uint32_t>();
     split.test = fields.get_values<std::uint32_t>();
-    Teacher teacher(data.table, gram, settings.judge, 1);
-    return pack(run_trial(data, teacher, split, settings, measure_confidence));
+    JudgeTrainer trainer(data.table, gram, settings.judge, 1);
+    return pack(run_trial(data, trainer, split, settings, measure_confidence));
   };
 }
 
 Work make_trial_work(std::string_view context, const RankState& kept) {
   Unpacker fields(context);
-  expected_of(fields, kept);
+  check_ticket(fields, kept);
   const Settings settings = settings_from_json(nlohmann::json::parse(fields.get_text()));
   const bool measure_confidence = fields.get<bool>();
   const bool has_tested = fields.get<bool>();
-  const auto strangers = std::make_shared<TestTable>(unpack_tested(fields));
+  const auto unknown_objects = std::make_shared<TestTable>(unpack_tested(fields));
   const auto tested = has_tested ? std::make_shared<TestTable>(unpack_tested(fields)) : nullptr;
-  Work work = trial_work({kept.table, tested.get(), *strangers}, kept.gram, settings, measure_confidence);
-  return [strangers, tested, work = std::move(work)](std::string_view task) { return work(task); };
+  Work work = trial_work({kept.table, tested.get(), *unknown_objects}, kept.gram, settings, measure_confidence);
+  return [unknown_objects, tested, work = std::move(work)](std::string_view task) { return work(task); };
 }
 
 }  // namespace spincat

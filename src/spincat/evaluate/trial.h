@@ -10,8 +10,8 @@
 #include "spincat/evaluate/evaluate.h"
 #include "spincat/judge/kernel.h"
 #include "spincat/parallel/task.h"
-#include "spincat/train/teach_tasks.h"
-#include "spincat/train/teacher.h"
+#include "spincat/train/train_tasks.h"
+#include "spincat/train/judge_trainer.h"
 
 namespace spincat {
 
@@ -22,7 +22,7 @@ inline constexpr const char* kTrialTasks = "splits";
 struct TrialData {
   const FeatureTable& table;
   const TestTable* tested;  // none: objects of the table
-  const TestTable& strangers;
+  const TestTable& unknown_objects;
 };
 TrialData trial_data(const EvaluationData& data);
 
@@ -31,31 +31,31 @@ struct Trial {
   Confusion confusion;
   std::vector<Confusion> by_views;   // for each of view_counts(): votes summed over so many views of an object
   std::vector<std::uint32_t> named;  // for each of split.test: the category it was given
-  // The confidences, where they are measured: in the tested objects by whether they were named right, and in strangers.
+  // The confidences, where they are measured: in the tested objects by whether they were named right, and in unknown objects.
   std::vector<double> right;
   std::vector<double> wrong;
-  std::vector<double> strangers;
+  std::vector<double> unknown_objects;
 };
 
 // Over how many views votes are summed, of so many that there are of an object: 1, 2, 4, ..., and all. Nothing where
 // objects are tested themselves.
 std::vector<std::uint32_t> view_counts(std::uint32_t views);
 
-// Teaches the judges on the objects `split.train` of the table and lets them vote on the tested objects `split.test`.
-// The votes on all views of an object are summed; confidences are of single views. `teacher` teaches on data.table.
+// Trains the judges on the objects `split.train` of the table and lets them vote on the tested objects `split.test`.
+// The votes on all views of an object are summed; confidences are of single views. `trainer` trains on data.table.
 // Deterministic.
-Trial run_trial(const TrialData& data, Teacher& teacher, const Split& split, const Settings& settings,
+Trial run_trial(const TrialData& data, JudgeTrainer& trainer, const Split& split, const Settings& settings,
                 bool measure_confidence);
 
-// Trials as tasks: a split is one. They need what a teacher has given to all ranks (teach_tasks.h), and of the data
+// Trials as tasks: a split is one. They need what a trainer has given to all ranks (train_tasks.h), and of the data
 // what is only tested.
 std::string pack(const Split& split);
 Trial unpack_trial(std::string_view result, std::size_t categories);
-void pack_trials(const TrialData& data, const Expected& expected, const Settings& settings, bool measure_confidence,
+void pack_trials(const TrialData& data, const TableTicket& expected, const Settings& settings, bool measure_confidence,
                  Packer& packer);
 // All that their results depend on but the splits.
 void pack_trials_identity(const TrialData& data, const Settings& settings, bool measure_confidence, Packer& packer);
-Work trial_work(const TrialData& data, const SharedGram& gram, const Settings& settings, bool measure_confidence);
+Work trial_work(const TrialData& data, const GramMatrices& gram, const Settings& settings, bool measure_confidence);
 Work make_trial_work(std::string_view context, const RankState& kept);
 
 }  // namespace spincat

@@ -12,7 +12,7 @@
 
 #include "spincat/error.h"
 #include "spincat/files/file_descriptor.h"
-#include "spincat/files/system_words.h"
+#include "spincat/files/system_error_text.h"
 
 namespace spincat {
 namespace {
@@ -38,11 +38,11 @@ bool may_be_endless(const struct stat& status) {
 std::string read_file(const std::filesystem::path& file, std::size_t most) {
   struct stat status = {};
   // Before it is opened, which may be to wait for a device.
-  if (::stat(file.c_str(), &status) != 0) throw InputError(file.string(), in_words(errno));
+  if (::stat(file.c_str(), &status) != 0) throw InputError(file.string(), system_error_text(errno));
   if (S_ISDIR(status.st_mode)) throw InputError(file.string(), "is a folder, not a file");
   if (may_be_endless(status)) throw InputError(file.string(), "is a device, not a file");
   const FileDescriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!in.valid() || ::fstat(in.number(), &status) != 0) throw InputError(file.string(), in_words(errno));
+  if (!in.valid() || ::fstat(in.number(), &status) != 0) throw InputError(file.string(), system_error_text(errno));
 
   // One byte more than the size, so that the end of the file shows without growing; pipes have no size and do grow.
   constexpr std::size_t least = 4096;
@@ -51,7 +51,7 @@ std::string read_file(const std::filesystem::path& file, std::size_t most) {
   while (size < most) {
     const ssize_t got = ::read(in.number(), bytes.data() + size, bytes.size() - size);
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) throw InputError(file.string(), "cannot read: " + in_words(errno));
+    if (got < 0) throw InputError(file.string(), "cannot read: " + system_error_text(errno));
     if (got == 0) break;
     size += static_cast<std::size_t>(got);
     if (size == bytes.size()) bytes.resize(std::min(most, 2 * bytes.size()));

@@ -11,7 +11,7 @@
 #include "spincat/error.h"
 #include "spincat/files/file_lock.h"
 #include "spincat/files/flush_to_disk.h"
-#include "spincat/files/system_words.h"
+#include "spincat/files/system_error_text.h"
 
 namespace spincat {
 namespace {
@@ -89,7 +89,7 @@ void LockedFile::remove() {
 }
 
 void LockedFile::fail(const char* what) const {
-  throw RunError(name_.string(), std::string(what) + ": " + in_words(errno));
+  throw RunError(name_.string(), std::string(what) + ": " + system_error_text(errno));
 }
 
 }  // namespace spincat

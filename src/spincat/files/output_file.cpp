@@ -22,7 +22,7 @@
 #include "spincat/files/file.h"
 #include "spincat/files/file_descriptor.h"
 #include "spincat/files/flush_to_disk.h"
-#include "spincat/files/system_words.h"
+#include "spincat/files/system_error_text.h"
 #include "spincat/files/temporary_file.h"
 
 namespace spincat {
@@ -69,7 +69,7 @@ void check_replaceable(const fs::path& file, const fs::path& target) {
   // A rename would replace a write-protected file: its owner did not mean that.
   if ((status && ::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) ||
       ::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0)
-    throw RunError(file.string(), "cannot write: " + in_words(errno));
+    throw RunError(file.string(), "cannot write: " + system_error_text(errno));
 }
 
 constexpr std::size_t kLarge = std::size_t{16} << 20;  // from so many bytes on, past the cache
@@ -161,7 +161,7 @@ void OutputFile::commit() {
 }
 
 void OutputFile::fail() const {
-  throw RunError(file_.string(), "cannot write: " + in_words(errno));
+  throw RunError(file_.string(), "cannot write: " + system_error_text(errno));
 }
 
 void write_file_atomically(const fs::path& file, std::string_view bytes) {
@@ -173,7 +173,7 @@ void write_file_atomically(const fs::path& file, std::string_view bytes) {
 void check_writable(const fs::path& file) {
   if (is_written_straight(file)) {
     if (file != "/dev/stdout" && ::faccessat(AT_FDCWD, file.c_str(), W_OK, AT_EACCESS) != 0)
-      throw RunError(file.string(), "cannot write: " + in_words(errno));
+      throw RunError(file.string(), "cannot write: " + system_error_text(errno));
     return;
   }
   check_replaceable(file, follow_links(file));

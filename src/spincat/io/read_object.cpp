@@ -17,7 +17,7 @@
 #include "spincat/error.h"
 #include "spincat/files/file.h"
 #include "spincat/files/magic.h"
-#include "spincat/files/system_words.h"
+#include "spincat/files/system_error_text.h"
 #include "spincat/geometry/object.h"
 #include "spincat/io/formats/formats.h"
 
@@ -70,7 +70,7 @@ const Format* format_of(const std::filesystem::path& file) {
 [[noreturn]] void fail_as_unknown(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) throw InputError(in_words(error.value()));
+  if (!std::filesystem::exists(status)) throw InputError(system_error_text(error.value()));
   // The first bytes only: a file of an unknown kind may be of any size.
   if (std::filesystem::is_regular_file(status) && read_file(file, kFileMagic.size()) == kFileMagic) fail_as_model();
   const std::string extension = file.extension().string();

@@ -47,7 +47,7 @@ struct SummedVotes {
 // Precondition: one or more ballots of the same judges.
 SummedVotes sum_votes(std::span<const Ballot> ballots);
 
-// The vote as it would be if no judge knew `category`: what comes of an object whose category was never taught. The
+// The vote as it would be if no judge knew `category`: what comes of an object whose category was never learned. The
 // other categories keep their numbers; `category` has no votes. Precondition: three or more categories.
 Ballot ballot_without(const Ballot& ballot, std::uint32_t category);
 

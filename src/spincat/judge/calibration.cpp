@@ -109,12 +109,12 @@ JudgedObject without_familiarity(JudgedObject vote) {
   return vote;
 }
 
-// How much familiarity counts for one of margin, found by telling right votes from wrong ones and strangers, but at
-// least as much: categories of one data set are more like each other than what a user will come with, so that they
+// How much familiarity counts for one of margin, found by telling right votes from wrong ones and unknown objects, but
+// at least as much: categories of one data set are more like each other than what a user will come with, so that they
 // teach too little of it. Nothing where either would count against the vote.
-double weight_of_familiarity(std::span<const JudgedObject> votes, std::span<const JudgedObject> strangers) {
+double weight_of_familiarity(std::span<const JudgedObject> votes, std::span<const JudgedObject> unknown_objects) {
   std::vector<JudgedObject> all(votes.begin(), votes.end());
-  all.insert(all.end(), strangers.begin(), strangers.end());
+  all.insert(all.end(), unknown_objects.begin(), unknown_objects.end());
   const Eigen::Vector3d x = minimum_of(Loss(all));
   constexpr double kLeastSlope = 1e-6;
   constexpr double kLeastWeight = 1.0;  // docs/accuracy.md says what was measured for it
@@ -128,12 +128,12 @@ double Calibration::confidence(const Ballot& ballot, double familiarity) const {
   return logistic(std::clamp(t, -30.0, 30.0));
 }
 
-Calibration fit_calibration(std::span<const JudgedObject> votes, std::span<const JudgedObject> strangers) {
+Calibration fit_calibration(std::span<const JudgedObject> votes, std::span<const JudgedObject> unknown_objects) {
   constexpr std::size_t kFewestVotes = 10;
   if (votes.size() < kFewestVotes) {
     return {};
   }
-  const double weight = strangers.empty() ? 0.0 : weight_of_familiarity(votes, strangers);
+  const double weight = unknown_objects.empty() ? 0.0 : weight_of_familiarity(votes, unknown_objects);
   std::vector<JudgedObject> weighed;
   for (const JudgedObject& vote : votes) {
     weighed.push_back(without_familiarity(vote));

@@ -19,7 +19,7 @@ struct Calibration {
   double confidence(const Ballot& ballot, double familiarity = 0.0) const;
 };
 
-// A vote on an object whose category is known, by judges that were not taught on it.
+// A vote on an object whose category is known, by judges that were not trained on it.
 struct JudgedObject {
   double weakest_margin = 0.0;
   bool right = false;
@@ -30,10 +30,10 @@ struct JudgedObject {
 // handful of votes or votes that are all right do not give certainty). Deterministic. The uncalibrated values when
 // there are fewer than ten votes.
 //
-// `strangers` are votes on objects of a category that none of their judges knew (whatever they said was wrong). They
-// decide how much familiarity counts beside the margin, and nothing else: slope and offset are then fitted to `votes`
-// alone, so that the confidence is how often a name of a known object is right. Without strangers, familiarity does not
-// count.
-Calibration fit_calibration(std::span<const JudgedObject> votes, std::span<const JudgedObject> strangers = {});
+// `unknown_objects` are votes on objects of a category that none of their judges knew (whatever they said was wrong).
+// They decide how much familiarity counts beside the margin, and nothing else: slope and offset are then fitted to
+// `votes` alone, so that the confidence is how often a name of a known object is right. Without unknown objects,
+// familiarity does not count.
+Calibration fit_calibration(std::span<const JudgedObject> votes, std::span<const JudgedObject> unknown_objects = {});
 
 }  // namespace spincat

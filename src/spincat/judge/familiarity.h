@@ -1,4 +1,4 @@
-// How like the objects that judges were taught on an object is: what tells a stranger from a hard case.
+// How like the objects that judges were trained on an object is: what tells a stranger from a hard case.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace spincat {
 // The training objects themselves, and how near to each other those of a category lie. Empty where nothing is known.
 struct Familiarity {
   FeatureMatrix objects;  // N x E, without copies: the first E of the judges' D features; a row for each view of an
-                          // object where judges are taught by views
+                          // object where judges are trained by views
   std::vector<std::uint32_t> labels;  // N
   std::vector<float> typical;  // of each category: the mean squared distance of its objects to their nearest neighbour
                                // in it; of all categories together where it has a single object

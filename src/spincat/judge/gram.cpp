@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "spincat/geometry/share_out.h"
+#include "spincat/geometry/parallel_for.h"
 
 namespace spincat {
 namespace {
@@ -31,7 +31,7 @@ Eigen::MatrixXf tile_of(const Eigen::Ref<const FeatureMatrix>& features, Eigen::
 Eigen::MatrixXf gram_matrix(const Eigen::Ref<const FeatureMatrix>& features, int threads) {
   Eigen::MatrixXf gram(features.rows(), features.rows());
   const std::size_t strips = gram_strips(features.rows());
-  share_out(strips, threads, [&](std::size_t s) {
+  parallel_for(strips, threads, [&](std::size_t s) {
     const std::size_t strip = strips - 1 - s;  // the longest first
     put_gram_strip(gram_strip(features, strip), strip, gram);
   });

@@ -18,7 +18,7 @@ std::vector<CategoryPair> all_pairs(std::uint32_t categories) {
   return pairs;
 }
 
-TrainingSet::TrainingSet(const FeatureMatrix& features, const SharedGram& shared_gram, Kernel kernel,
+TrainingSet::TrainingSet(const FeatureMatrix& features, const GramMatrices& shared_gram, Kernel kernel,
                          std::span<const std::uint32_t> labels, std::span<const std::uint32_t> rows,
                          std::uint32_t categories)
     : features_(features),
@@ -31,7 +31,7 @@ TrainingSet::TrainingSet(const FeatureMatrix& features, const SharedGram& shared
   }
 }
 
-Judge TrainingSet::teach(CategoryPair pair, const JudgeSettings& settings) const {
+Judge TrainingSet::train(CategoryPair pair, const JudgeSettings& settings) const {
   const auto price = [&](std::uint32_t category) {
     const auto all = static_cast<double>(objects_);
     const auto ours = static_cast<double>(rows_of_[category].size());

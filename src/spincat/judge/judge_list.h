@@ -41,20 +41,20 @@ struct FoldedJudge {
 
 struct JudgeList;
 
-// What judges are taught on.
+// What judges are trained on.
 class TrainingSet {
  public:
   // Those rows of `features` that `rows` lists; `labels` has the category of each row of features. `kernel` is fitted
   // to these rows, and `shared_gram` is that of all features for its kind, or empty: then every pair computes its own
   // part. What is passed by reference must outlive this object.
-  TrainingSet(const FeatureMatrix& features, const SharedGram& shared_gram, Kernel kernel,
+  TrainingSet(const FeatureMatrix& features, const GramMatrices& shared_gram, Kernel kernel,
               std::span<const std::uint32_t> labels, std::span<const std::uint32_t> rows, std::uint32_t categories);
 
   std::uint32_t categories() const { return static_cast<std::uint32_t>(rows_of_.size()); }
 
-  // Teaches the judge of one pair. Pairs are independent: they may be taught at the same time and in any order.
+  // Trains the judge of one pair. Pairs are independent: they may be trained at the same time and in any order.
   // Deterministic. Precondition: both categories have a row.
-  Judge teach(CategoryPair pair, const JudgeSettings& settings) const;
+  Judge train(CategoryPair pair, const JudgeSettings& settings) const;
 
   // Deterministic. Precondition: the kernel is linear.
   FoldedJudge fold(const Judge& judge) const;
@@ -74,7 +74,7 @@ class TrainingSet {
   JudgeList list_with_supports(std::span<const Judge> judges) const;
 
   const FeatureMatrix& features_;
-  const SharedGram& shared_gram_;
+  const GramMatrices& shared_gram_;
   Kernel kernel_;
   std::vector<std::vector<std::uint32_t>> rows_of_;  // of each category
   std::size_t objects_ = 0;

@@ -84,16 +84,16 @@ std::vector<std::pair<Eigen::Index, Eigen::Index>> gram_columns(KernelKind kind,
   return columns_of(block_sizes);
 }
 
-SharedGram make_shared_gram(KernelKind kind, std::span<const std::uint32_t> block_sizes, const FeatureMatrix& features,
+GramMatrices make_shared_gram(KernelKind kind, std::span<const std::uint32_t> block_sizes, const FeatureMatrix& features,
                             int threads) {
-  SharedGram gram;
+  GramMatrices gram;
   for (const auto& [first, count] : gram_columns(kind, block_sizes, features.cols())) {
     gram.blocks.push_back(gram_matrix(features.middleCols(first, count), threads));
   }
   return gram;
 }
 
-Eigen::MatrixXf kernel_matrix(const Kernel& kernel, const FeatureMatrix& features, const SharedGram& gram,
+Eigen::MatrixXf kernel_matrix(const Kernel& kernel, const FeatureMatrix& features, const GramMatrices& gram,
                               std::span<const std::uint32_t> rows) {
   const auto products = [&](std::size_t block, Eigen::Index first, Eigen::Index count) -> Eigen::MatrixXf {
     return gram.empty() ? picked_gram(features, rows, first, count) : gram.blocks[block](rows, rows);
@@ -113,7 +113,7 @@ Eigen::MatrixXf kernel_matrix(const Kernel& kernel, const FeatureMatrix& feature
   return sum / static_cast<float>(columns.size());
 }
 
-Eigen::MatrixXf kernel_between(const Kernel& kernel, const SharedGram& gram, std::span<const std::uint32_t> a,
+Eigen::MatrixXf kernel_between(const Kernel& kernel, const GramMatrices& gram, std::span<const std::uint32_t> a,
                                std::span<const std::uint32_t> b) {
   if (kernel.kind == KernelKind::linear) {
     return gram.blocks[0](a, b);

@@ -37,7 +37,7 @@ Kernel fit_kernel(KernelKind kind, std::span<const std::uint32_t> block_sizes, c
 // The inner products of all rows of a table, which every training on some of the rows picks from: one matrix for the
 // linear kernel, one a block for rbf. Without any matrix: training computes what it needs (which takes longer, and may
 // differ in the last bit).
-struct SharedGram {
+struct GramMatrices {
   std::vector<Eigen::MatrixXf> blocks;
   bool empty() const { return blocks.empty(); }
 };
@@ -45,16 +45,16 @@ struct SharedGram {
 std::vector<std::pair<Eigen::Index, Eigen::Index>> gram_columns(KernelKind kind,
                                                                 std::span<const std::uint32_t> block_sizes,
                                                                 Eigen::Index columns);
-SharedGram make_shared_gram(KernelKind kind, std::span<const std::uint32_t> block_sizes, const FeatureMatrix& features,
+GramMatrices make_shared_gram(KernelKind kind, std::span<const std::uint32_t> block_sizes, const FeatureMatrix& features,
                             int threads);
 
-// K of all pairs of the given rows of `features`; `gram` is a SharedGram of that kernel's kind for all rows, or empty.
+// K of all pairs of the given rows of `features`; `gram` is a GramMatrices of that kernel's kind for all rows, or empty.
 // Deterministic.
-Eigen::MatrixXf kernel_matrix(const Kernel& kernel, const FeatureMatrix& features, const SharedGram& gram,
+Eigen::MatrixXf kernel_matrix(const Kernel& kernel, const FeatureMatrix& features, const GramMatrices& gram,
                               std::span<const std::uint32_t> rows);
 
 // K of each of the rows `a` (a row of the result) with each of the rows `b`. Precondition: `gram` is not empty.
-Eigen::MatrixXf kernel_between(const Kernel& kernel, const SharedGram& gram, std::span<const std::uint32_t> a,
+Eigen::MatrixXf kernel_between(const Kernel& kernel, const GramMatrices& gram, std::span<const std::uint32_t> a,
                                std::span<const std::uint32_t> b);
 
 }  // namespace spincat

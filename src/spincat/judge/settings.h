@@ -1,4 +1,4 @@
-// How judges are taught.
+// How judges are trained.
 #pragma once
 
 namespace spincat {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "spincat/geometry/share_out.h"
+#include "spincat/geometry/parallel_for.h"
 
 namespace spincat {
 
@@ -27,7 +27,7 @@ int thread_count(int requested) {
 }
 
 void for_each_index(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {
-  share_out(count, threads, body);
+  parallel_for(count, threads, body);
 }
 
 }  // namespace spincat

@@ -16,9 +16,9 @@ constexpr std::chrono::milliseconds kBetweenBeats(500);
 
 }  // namespace
 
-Pulse::Pulse(Communicator& ranks) : ranks_(ranks), thread_([this](const std::stop_token& stop) { beat_on(stop); }) {}
+Heartbeat::Heartbeat(Communicator& ranks) : ranks_(ranks), thread_([this](const std::stop_token& stop) { beat_on(stop); }) {}
 
-void Pulse::beat_on(const std::stop_token& stop) {
+void Heartbeat::beat_on(const std::stop_token& stop) {
   std::mutex mutex;
   std::condition_variable_any never;
   std::unique_lock lock(mutex);
@@ -32,7 +32,7 @@ void Pulse::beat_on(const std::stop_token& stop) {
 }
 
 // What is still on its way is a sign of life, too; and to a rank that was lost they must not pile up.
-void Pulse::beat() {
+void Heartbeat::beat() {
   for (int r = 1; r < ranks_.size(); ++r) {
     if (ranks_.has_sent(r)) {
       ranks_.send(r, farm::kBeat, std::make_shared<const std::string>());

@@ -10,9 +10,9 @@ namespace spincat {
 
 // Has a thread tell all other ranks twice a second that this one is there, until this object goes: rank 0 may be busy
 // for minutes with what no other rank takes part in.
-class Pulse {
+class Heartbeat {
  public:
-  explicit Pulse(Communicator& ranks);
+  explicit Heartbeat(Communicator& ranks);
 
  private:
   void beat_on(const std::stop_token& stop);

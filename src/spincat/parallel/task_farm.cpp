@@ -16,7 +16,7 @@
 #include "spincat/parallel/heartbeat.h"
 #include "spincat/parallel/packing.h"
 #include "spincat/parallel/pause.h"
-#include "spincat/parallel/task_board.h"
+#include "spincat/parallel/task_queue.h"
 #include "spincat/parallel/thread_crew.h"
 
 namespace spincat {
@@ -46,7 +46,7 @@ SharedBytes shared(std::string bytes) {
 class TaskFarm::Run {
  public:
   Run(TaskFarm& farm, const Job& job, const Tick& tick)
-      : farm_(farm), job_(job), tick_(tick), number_(++farm.job_), board_(job.tasks, window()) {
+      : farm_(farm), job_(job), tick_(tick), number_(++farm.job_), queue_(job.tasks, window()) {
     if (job.in_journal && farm_.journal_ != nullptr) {
       journal_ = farm_.journal_;
       journal_job_ = job_key(farm_.journaled_jobs_++, job.kind, job.tasks, hash_of_job());
@@ -68,12 +68,12 @@ class TaskFarm::Run {
     const auto start = Clock::now();
     begin();
     Pause pause;
-    while (!board_.all_delivered()) {
-      bool happened = take_here();  // all four, whatever the others say
+    while (!queue_.all_delivered()) {
+      bool happened = take_local();  // all four, whatever the others say
       happened = hear() || happened;
       happened = deliver() || happened;
       happened = hand_out() || happened;
-      mind_silence();
+      check_timeouts();
       if (happened || Clock::now() - last_tick_ > kBetweenTicks) {
         last_tick_ = Clock::now();
         tick();
@@ -94,7 +94,7 @@ class TaskFarm::Run {
 
   void tick() const {
     if (tick_) {
-      tick_(board_.delivered());
+      tick_(queue_.delivered());
     }
   }
 
@@ -103,7 +103,7 @@ class TaskFarm::Run {
     std::size_t known = 0;
     for (std::size_t task = 0; journal_ != nullptr && task < job_.tasks; ++task) {
       if (journal_->has(journal_job_, task)) {
-        board_.finish(task);
+        queue_.finish(task);
         ++known;
       }
     }
@@ -139,7 +139,7 @@ class TaskFarm::Run {
 
   // Few ranks, or nobody else there.
   bool works_here() const {
-    const bool is_wanted = farm_.ranks_.size() <= kMostRanksToWorkAt && !farm_.shares_always();
+    const bool is_wanted = farm_.ranks_.size() <= kMostRanksToWorkAt && !farm_.always_broadcasts();
     return job_.stays_here || is_wanted ||
            std::ranges::all_of(farm_.others_, [](const Rank& rank) { return rank.lost || rank.refused; });
   }
@@ -147,7 +147,7 @@ class TaskFarm::Run {
   // Those that our own threads have.
   std::size_t tasks_here() const { return crew_ ? crew_->tasks() : 0; }
 
-  bool take_here() {
+  bool take_local() {
     bool taken = false;
     while (crew_) {
       std::optional<TaskResult> result = crew_->take();
@@ -179,7 +179,7 @@ class TaskFarm::Run {
         if (fields.get<std::uint32_t>() == number_) {
           rank.ready = true;
           rank.threads = fields.get<std::int32_t>();
-          board_.set_window(window());
+          queue_.set_window(window());
         }
         break;
       case farm::kRefusal:
@@ -207,15 +207,15 @@ class TaskFarm::Run {
   // and only so is a problem the same for any ranks.
   void accept(int from, TaskResult result) {
     if (from != kHere && result.outcome != TaskResult::Outcome::done) {
-      if (!board_.is_done(result.task)) {
-        do_here(result.task);
+      if (!queue_.is_done(result.task)) {
+        do_local(result.task);
       }
       return;
     }
-    if (!board_.finish(result.task)) {
+    if (!queue_.finish(result.task)) {
       return;
     }
-    if (from != kHere && farm_.shares_always()) {
+    if (from != kHere && farm_.always_broadcasts()) {
       ++farm_.elsewhere_[job_.kind];
     }
     median_.add(result.seconds);
@@ -264,8 +264,8 @@ class TaskFarm::Run {
 
   bool deliver() {
     bool delivered = false;
-    while (!board_.all_delivered() && board_.is_done(board_.delivered())) {
-      const std::size_t task = board_.delivered();
+    while (!queue_.all_delivered() && queue_.is_done(queue_.delivered())) {
+      const std::size_t task = queue_.delivered();
       const auto found = waiting_.find(task);
       if (found == waiting_.end()) {
         std::optional<std::string> result = journal_->find(journal_job_, task);
@@ -282,7 +282,7 @@ class TaskFarm::Run {
         }
         job_.deliver(task, std::move(result.bytes));
       }
-      board_.deliver();
+      queue_.deliver();
       delivered = true;
     }
     return delivered;
@@ -291,14 +291,14 @@ class TaskFarm::Run {
   bool hand_out() {
     bool handed = false;
     const auto now = Clock::now();
-    const TaskBoard::Seconds patience(std::max(1.0, 5.0 * median_.value()));
+    const TaskQueue::Seconds patience(std::max(1.0, 5.0 * median_.value()));
     // In turns: the first tasks of a small job must not all queue up at one rank, nor its last.
     const std::size_t turns = tasks_ahead();
     for (std::size_t turn = 0; turn < turns; ++turn) {
       for (std::size_t r = 0; r < farm_.others_.size(); ++r) {
         Rank& rank = farm_.others_[r];
         while (rank.ready && !rank.lost && rank.tasks < (turn + 1) * static_cast<std::size_t>(rank.threads)) {
-          const auto task = board_.next_for(static_cast<int>(r) + 1, now, patience);
+          const auto task = queue_.next_for(static_cast<int>(r) + 1, now, patience);
           if (!task) {
             break;
           }
@@ -320,20 +320,20 @@ class TaskFarm::Run {
         std::clamp(tasks, static_cast<double>(kTasksAhead), static_cast<double>(kMostTasksAhead)));
   }
 
-  bool hand_out_here(std::size_t most, Clock::time_point now, TaskBoard::Seconds patience) {
+  bool hand_out_here(std::size_t most, Clock::time_point now, TaskQueue::Seconds patience) {
     bool handed = false;
     while (tasks_here() < most && works_here()) {
-      const auto task = board_.next_for(kHere, now, patience);
+      const auto task = queue_.next_for(kHere, now, patience);
       if (!task) {
         break;
       }
-      do_here(*task);
+      do_local(*task);
       handed = true;
     }
     return handed;
   }
 
-  void do_here(std::size_t task) {
+  void do_local(std::size_t task) {
     if (!crew_) {
       crew_ = std::make_unique<ThreadCrew>(job_.work, farm_.threads_);
     }
@@ -341,7 +341,7 @@ class TaskFarm::Run {
   }
 
   // Takes tasks back from ranks that say nothing.
-  void mind_silence() {
+  void check_timeouts() {
     const auto now = Clock::now();
     const auto since = now - farm_.last_look_;
     if (since < kBetweenTicks) {
@@ -357,7 +357,7 @@ class TaskFarm::Run {
       if (!rank.lost && !rank.refused && is_away) {
         rank.lost = true;
         rank.tasks = 0;
-        farm_.handed_out_again_ += board_.take_back(static_cast<int>(r) + 1);
+        farm_.handed_out_again_ += queue_.take_back(static_cast<int>(r) + 1);
       }
     }
   }
@@ -366,7 +366,7 @@ class TaskFarm::Run {
     if (!started_) {
       pause = kBetweenTicks;  // a finished task wakes us
     }
-    if (board_.all_delivered()) {
+    if (queue_.all_delivered()) {
       return;
     }
     if (pause.count() == 0) {
@@ -386,7 +386,7 @@ class TaskFarm::Run {
   std::uint64_t journal_job_ = 0;
   bool started_ = false;       // the others were told
   std::optional<bool> tells_;  // whether they are told all results
-  TaskBoard board_;
+  TaskQueue queue_;
   std::map<std::size_t, TaskResult> waiting_;  // for their turn
   RunningMedian median_;                       // seconds a task takes
   Clock::time_point last_tick_;
@@ -396,7 +396,7 @@ class TaskFarm::Run {
 TaskFarm::TaskFarm(Communicator& ranks) : ranks_(ranks), others_(static_cast<std::size_t>(ranks.size()) - 1) {
   say_to_all(farm::kHello, shared(farm::pack(farm::own_greeting())));
   try {
-    pulse_ = others_.empty() ? nullptr : std::make_unique<Pulse>(ranks_);
+    heartbeat_ = others_.empty() ? nullptr : std::make_unique<Heartbeat>(ranks_);
   } catch (...) {  // no thread can be made
     dismiss();
     throw;
@@ -530,7 +530,7 @@ void TaskFarm::dismiss() {
     }
     std::this_thread::sleep_for(pause.after({.happened = heard}));
   }
-  pulse_.reset();  // the next is the last word
+  heartbeat_.reset();  // the next is the last word
   say_to_all(farm::kEnd, shared({}));
 }
 

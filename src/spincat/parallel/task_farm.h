@@ -20,7 +20,7 @@
 
 namespace spincat {
 
-class Pulse;
+class Heartbeat;
 
 // Packs what other ranks need.
 using Context = std::function<void(Packer& packer)>;
@@ -69,13 +69,13 @@ class TaskFarm {
   void use_threads(int here, int requested);
   int threads() const { return threads_; }
   // Whether there is more to a job than this process's threads: other ranks, or a journal.
-  bool shares_out() const { return ranks() > 1 || journal_ != nullptr; }
+  bool is_distributed() const { return ranks() > 1 || journal_ != nullptr; }
 
   std::size_t resumed() const { return resumed_; }  // tasks that the journal had, so far
 
   // For tests: from now on other ranks do all that they can, however little it is, and the report tells what they did.
-  void share_always() { shares_always_ = true; }
-  bool shares_always() const { return shares_always_ && ranks() > 1; }
+  void always_broadcast() { shares_always_ = true; }
+  bool always_broadcasts() const { return shares_always_ && ranks() > 1; }
   int threads_everywhere() const;  // as far as known: ranks that have not spoken yet count like this one
 
   // From now on results are kept in the journal, and those that it has are not computed again. Null: no journal. Where
@@ -106,7 +106,7 @@ class TaskFarm {
   void dismiss();
 
   Communicator& ranks_;
-  std::unique_ptr<Pulse> pulse_;  // null where there is no other rank
+  std::unique_ptr<Heartbeat> heartbeat_;  // null where there is no other rank
   int threads_ = 1;
   int requested_threads_ = 1;
   Journal* journal_ = nullptr;
@@ -130,9 +130,9 @@ class TaskFarm {
 std::chrono::duration<double> silence_deadline();
 
 // A farm of this process's threads alone.
-class OwnFarm {
+class LocalFarm {
  public:
-  explicit OwnFarm(int threads) : farm_(alone_) { farm_.use_threads(threads, threads); }
+  explicit LocalFarm(int threads) : farm_(alone_) { farm_.use_threads(threads, threads); }
   TaskFarm& farm() { return farm_; }
 
  private:

@@ -58,9 +58,9 @@ Json left_out(const std::vector<LeftOutCategory>& categories) {
 
 Json confidence(const ConfidenceMeasure& measure) {
   Json json = {{"mean", measure.mean_confidence}, {"right_or_wrong_auc", measure.right_or_wrong}};
-  if (measure.strangers > 0) {
+  if (measure.unknown_objects > 0) {
     json["known_or_unknown_auc"] = measure.known_or_unknown;
-    json["unknown_objects"] = measure.strangers;
+    json["unknown_objects"] = measure.unknown_objects;
   }
   return json;
 }

@@ -130,7 +130,7 @@ std::string rate_text(const Evaluation& e, const Rate& rate) {
 std::string protocol_text(const Evaluation& e) {
   switch (e.protocol) {
     case Protocol::leave_one_out:
-      return "each object named by judges taught on all others";
+      return "each object named by judges trained on all others";
     case Protocol::across:
       return fmt::format("tested on {} objects of {}",
                          std::accumulate(e.test_object_counts.begin(), e.test_object_counts.end(), std::size_t{0}),
@@ -175,9 +175,9 @@ std::string confidence_text(const Evaluation& e) {
   }
   std::string text = fmt::format("confidence       {:.3f} on average; area under the curve {:.3f} for right or wrong",
                                  e.confidence->mean_confidence, e.confidence->right_or_wrong);
-  if (e.confidence->strangers > 0) {
+  if (e.confidence->unknown_objects > 0) {
     text += fmt::format(", {:.3f} for known or unknown ({} unknown objects)", e.confidence->known_or_unknown,
-                        e.confidence->strangers);
+                        e.confidence->unknown_objects);
   }
   return text + "\n";
 }

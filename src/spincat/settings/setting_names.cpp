@@ -22,8 +22,8 @@ constexpr ChoiceName<BinSizeUnit> kUnits[] = {
     {BinSizeUnit::absolute, "absolute"}, {BinSizeUnit::resolution, "resolution"}, {BinSizeUnit::relative, "relative"}};
 constexpr ChoiceName<KernelKind> kKernels[] = {{KernelKind::linear, "linear"}, {KernelKind::rbf, "rbf"}};
 constexpr ChoiceName<UpAxis> kUpAxes[] = {{UpAxis::none, "none"}, {UpAxis::x, "x"}, {UpAxis::y, "y"}, {UpAxis::z, "z"}};
-constexpr ChoiceName<TaughtFor> kTaughtFor[] = {
-    {TaughtFor::meshes, "meshes"}, {TaughtFor::any, "any"}, {TaughtFor::views, "views"}};
+constexpr ChoiceName<TrainedFor> kTrainedFor[] = {
+    {TrainedFor::meshes, "meshes"}, {TrainedFor::any, "any"}, {TrainedFor::views, "views"}};
 
 }  // namespace
 
@@ -60,8 +60,8 @@ std::span<const ChoiceName<UpAxis>> choices() {
   return kUpAxes;
 }
 template <>
-std::span<const ChoiceName<TaughtFor>> choices() {
-  return kTaughtFor;
+std::span<const ChoiceName<TrainedFor>> choices() {
+  return kTrainedFor;
 }
 
 bool is_setting_text(std::string_view text) {

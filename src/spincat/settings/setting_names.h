@@ -35,7 +35,7 @@ std::span<const ChoiceName<KernelKind>> choices();
 template <>
 std::span<const ChoiceName<UpAxis>> choices();
 template <>
-std::span<const ChoiceName<TaughtFor>> choices();
+std::span<const ChoiceName<TrainedFor>> choices();
 
 // The name of a choice.
 template <class Choice>

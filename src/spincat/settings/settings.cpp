@@ -60,7 +60,7 @@ void Settings::validate() const {
   if (views < 1 || views > 1'000) {
     throw InputError(fmt::format("number of views {} is out of range (1 to 1000)", views));
   }
-  if (taught_for == TaughtFor::views && up == UpAxis::none) {
+  if (trained_for == TrainedFor::views && up == UpAxis::none) {
     throw InputError("views of models need to know which axis points up (x, y or z)");
   }
   if (!(stretch >= 0.0 && stretch <= 2.0)) {
@@ -83,8 +83,8 @@ const std::vector<std::string>& preset_names() {
   return names;
 }
 
-Settings taught_by_views(Settings settings, int views) {
-  settings.taught_for = TaughtFor::views;
+Settings trained_by_views(Settings settings, int views) {
+  settings.trained_for = TrainedFor::views;
   settings.views = views;
   settings.up = UpAxis::y;
   settings.plain_samples = false;  // nothing of a view is hidden

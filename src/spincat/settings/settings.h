@@ -20,8 +20,8 @@ enum class BinSizeUnit {
   relative,    // the object's radius: the distance of its furthest point from the centre of its bounding box
 };
 
-// What the judges are taught for.
-enum class TaughtFor {
+// What the judges are trained for.
+enum class TrainedFor {
   meshes,  // objects as the training files hold them
   any,     // point clouds as well, exact or noisy: each training object is shown as clouds besides
   views,   // what a depth camera sees: each training object is shown as rendered views (camera/render/views.h) alone
@@ -44,8 +44,8 @@ struct Settings {
   int words = 256;             // of the codebook that the bag-of-features encoding learns, 2 to 65,536
   JudgeSettings judge;
   int copies = 6;                            // stretched copies of each training object, 0 to 100
-  TaughtFor taught_for = TaughtFor::meshes;  // any: besides, as many stretched copies turned into clouds
-  int views = 12;                            // of each training object where taught_for says so, 1 to 1,000
+  TrainedFor trained_for = TrainedFor::meshes;  // any: besides, as many stretched copies turned into clouds
+  int views = 12;                            // of each training object where trained_for says so, 1 to 1,000
   double stretch = 0.2;                      // each axis of a copy is stretched by exp(U(-stretch, stretch)), 0 to 2
   std::uint64_t seed = 1;                    // of every random choice
 
@@ -54,11 +54,11 @@ struct Settings {
 
   // How many feature vectors a training object gives: its own and its copies', or its views'.
   int training_rows() const {
-    return taught_for == TaughtFor::views ? views : 1 + copies * (taught_for == TaughtFor::any ? 2 : 1);
+    return trained_for == TrainedFor::views ? views : 1 + copies * (trained_for == TrainedFor::any ? 2 : 1);
   }
 
   // How many of them show the object as it may be met, the first ones: itself alone, or all views.
-  int tested_rows() const { return taught_for == TaughtFor::views ? views : 1; }
+  int tested_rows() const { return trained_for == TrainedFor::views ? views : 1; }
 
   // Throws InputError naming the field, its value and the allowed range.
   void validate() const;
@@ -69,8 +69,8 @@ struct Settings {
 Settings preset(std::string_view name);
 const std::vector<std::string>& preset_names();
 
-// The settings changed to what suits judges that will look through a depth camera (docs/camera.md), taught by so many
+// The settings changed to what suits judges that will look through a depth camera (docs/camera.md), trained by so many
 // views of each object.
-Settings taught_by_views(Settings settings, int views);
+Settings trained_by_views(Settings settings, int views);
 
 }  // namespace spincat

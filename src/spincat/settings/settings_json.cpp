@@ -80,7 +80,7 @@ nlohmann::ordered_json settings_to_json(const Settings& s) {
           {"c", s.judge.c},
           {"class_weights", s.judge.class_weights},
           {"copies", s.copies},
-          {"taught_for", name_of(s.taught_for)},
+          {"trained_for", name_of(s.trained_for)},
           {"views", s.views},
           {"stretch", s.stretch},
           {"seed", s.seed}};
@@ -110,7 +110,8 @@ Settings settings_from_json(const Json& json) {
   s.judge.c = field<double>(json, "c");
   s.judge.class_weights = field<bool>(json, "class_weights");
   s.copies = whole<int>(json, "copies");
-  s.taught_for = choice<TaughtFor>(json, "taught_for");
+  s.trained_for =
+      choice<TrainedFor>(json, json.contains("trained_for") ? "trained_for" : "taught_for");  // as 0.1 wrote it
   s.views = whole<int>(json, "views");
   s.stretch = field<double>(json, "stretch");
   s.seed = whole<std::uint64_t>(json, "seed");

@@ -321,7 +321,7 @@ HWY_INLINE void place_pending(const Support& support, const CellLayout& layout, 
 
 // Adds kNumbers shares to as many sums at once.
 template <std::size_t kNumbers>
-HWY_INLINE void add_shares(const std::int32_t* shares, std::int64_t* sums) {
+HWY_INLINE void add_contributions(const std::int32_t* shares, std::int64_t* sums) {
   const hn::CappedTag<std::int64_t, kNumbers> d;
   const hn::Rebind<std::int32_t, decltype(d)> narrow;
   for (std::size_t k = 0; k < kNumbers; k += hn::Lanes(d)) {
@@ -339,7 +339,7 @@ HWY_INLINE void scatter(const std::int32_t* cell, const std::int32_t* shares, st
     if constexpr (kNumbers == 1) {
       *sums += kOne;
     } else {
-      add_shares<kNumbers>(shares + kNumbers * k, sums);
+      add_contributions<kNumbers>(shares + kNumbers * k, sums);
     }
   };
   for (std::size_t k = 0; k < length; ++k) {

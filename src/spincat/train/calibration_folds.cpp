@@ -25,8 +25,8 @@ std::vector<std::uint32_t> picked(std::span<const std::uint32_t> objects, std::s
 
 }  // namespace
 
-std::vector<LessonPlan> calibration_folds(const FeatureTable& table, std::span<const std::uint32_t> objects,
-                                          std::uint64_t seed) {
+std::vector<TrainingPlan> calibration_folds(const FeatureTable& table, std::span<const std::uint32_t> objects,
+                                            std::uint64_t seed) {
   if (objects.size() < static_cast<std::size_t>(kCalibrationFolds)) {
     return {};
   }
@@ -36,7 +36,7 @@ std::vector<LessonPlan> calibration_folds(const FeatureTable& table, std::span<c
     labels.push_back(table.objects[object].category);
     ++in_category[labels.back()];
   }
-  std::vector<LessonPlan> lessons;
+  std::vector<TrainingPlan> trainings;
   for (Split& fold : stratified_folds(labels, kCalibrationFolds, derive_seed(seed, kCalibrationPurpose))) {
     std::vector<std::uint32_t> judged;
     for (const std::uint32_t i : fold.test) {
@@ -44,14 +44,14 @@ std::vector<LessonPlan> calibration_folds(const FeatureTable& table, std::span<c
     }
     std::ranges::sort(fold.train);
     if (!judged.empty()) {
-      lessons.push_back({picked(objects, fold.train), picked(objects, judged)});
+      trainings.push_back({picked(objects, fold.train), picked(objects, judged)});
     }
   }
-  return lessons;
+  return trainings;
 }
 
-void FoldCounter::add(const LessonPlan& fold, const JudgesTask& task, std::string_view result, bool is_last) {
-  const FeatureMatrix part = unpack_margins(result, fold.judged.size() * table_.tested_rows);
+void FoldCounter::add(const TrainingPlan& fold, const JudgesTask& task, std::string_view result, bool is_last) {
+  const FeatureMatrix part = unpack_margins(result, fold.held_out.size() * table_.tested_rows);
   const auto categories = static_cast<Eigen::Index>(table_.categories.size());
   margins_.resize(part.rows(), categories * (categories - 1) / 2);  // does nothing but for the first task of the fold
   margins_.middleCols(task.first, task.last - task.first) = part;
@@ -65,12 +65,12 @@ Calibration FoldCounter::calibration() const {
   return fit_calibration(votes_, strangers_);
 }
 
-// Right and wrong votes of the judges of a fold, and their votes on the same objects as strangers.
-void FoldCounter::count(const LessonPlan& fold) {
+// Right and wrong votes of the judges of a fold, and their votes on the same objects as unknown objects.
+void FoldCounter::count(const TrainingPlan& fold) {
   const auto categories = static_cast<std::uint32_t>(table_.categories.size());
-  const Familiarity familiarity = familiarity_of(table_, fold.taught);
-  for (std::size_t i = 0; i < fold.judged.size() * table_.tested_rows; ++i) {
-    const std::uint32_t object = fold.judged[i / table_.tested_rows];
+  const Familiarity familiarity = familiarity_of(table_, fold.train);
+  for (std::size_t i = 0; i < fold.held_out.size() * table_.tested_rows; ++i) {
+    const std::uint32_t object = fold.held_out[i / table_.tested_rows];
     const std::span<const float> features =
         table_.features_of(object, static_cast<std::uint32_t>(i % table_.tested_rows));
     const std::uint32_t truth = table_.objects[object].category;

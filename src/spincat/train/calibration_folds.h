@@ -8,15 +8,15 @@
 
 #include "spincat/judge/calibration.h"
 #include "spincat/train/feature_table.h"
-#include "spincat/train/teach_tasks.h"
+#include "spincat/train/train_tasks.h"
 
 namespace spincat {
 
 inline constexpr int kCalibrationFolds = 5;
 
-// The folds of a calibration on some objects; none for fewer objects than folds. A category's only object is taught on
+// The folds of a calibration on some objects; none for fewer objects than folds. A category's only object is trained on
 // in all of them. Deterministic.
-std::vector<LessonPlan> calibration_folds(const FeatureTable& table, std::span<const std::uint32_t> objects,
+std::vector<TrainingPlan> calibration_folds(const FeatureTable& table, std::span<const std::uint32_t> objects,
                                           std::uint64_t seed);
 
 // What the judges of the folds say, as it comes in, in the order of the tasks.
@@ -26,13 +26,13 @@ class FoldCounter {
   explicit FoldCounter(const FeatureTable& table) : table_(table) {}
 
   // `is_last`: of the tasks of this fold.
-  void add(const LessonPlan& fold, const JudgesTask& task, std::string_view result, bool is_last);
+  void add(const TrainingPlan& fold, const JudgesTask& task, std::string_view result, bool is_last);
 
   // Of all folds so far; that of none takes every vote as it comes.
   Calibration calibration() const;
 
  private:
-  void count(const LessonPlan& fold);
+  void count(const TrainingPlan& fold);
 
   const FeatureTable& table_;
   FeatureMatrix margins_;  // of the fold that is coming in

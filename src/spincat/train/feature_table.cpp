@@ -10,8 +10,8 @@
 #include "spincat/describe/describe_tasks.h"
 #include "spincat/describe/table_rows.h"
 #include "spincat/error.h"
-#include "spincat/train/fresh_number.h"
-#include "spincat/train/sharing.h"
+#include "spincat/train/broadcast_id.h"
+#include "spincat/train/worth_broadcasting.h"
 
 namespace spincat {
 namespace {
@@ -134,7 +134,7 @@ std::span<const float> FeatureTable::features_of(std::uint32_t object, std::uint
 }
 
 FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, bool strict, TaskFarm& farm,
-                              Division division, const TeachingPlan& plan, const Progress& progress) {
+                              Division division, std::size_t trainings, const Progress& progress) {
   settings.validate();
   if (strict && !dataset.skipped.empty()) {
     throw InputError(dataset.skipped.front().file.string(), dataset.skipped.front().reason);
@@ -151,8 +151,8 @@ FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, 
                   dataset.limits,
                   {}};
   job.keeps_rows = [&](std::size_t length) {
-    all_ranks_keep =
-        pays_to_share({objects.size(), objects.size() * rows_each, length, dataset.categories.size()}, plan, farm);
+    all_ranks_keep = worth_broadcasting({objects.size(), objects.size() * rows_each, length, dataset.categories.size()},
+                                        trainings, farm);
     return all_ranks_keep;
   };
   const auto keep = [&](std::size_t i, const Described& one, std::span<const FeatureBytes> values) {
@@ -173,7 +173,7 @@ FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, 
   leave_out_shorter(dataset, strict, rows.length(), objects);
   FeatureTable table = collect(dataset, objects, std::move(rows), settings);
   if (all_ranks_keep) {
-    table.number = fresh_number();
+    table.number = next_broadcast_id();
   } else {
     table.described_as.clear();
   }
@@ -183,7 +183,7 @@ FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, 
 
 FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, bool strict, int threads,
                               const Progress& progress) {
-  OwnFarm own(threads);
+  LocalFarm own(threads);
   return describe_dataset(dataset, settings, strict, own.farm(), Division::sums, {}, progress);
 }
 

@@ -17,7 +17,6 @@
 namespace spincat {
 
 class TaskFarm;
-struct TeachingPlan;
 
 // Objects that could be read, and their features: row i * rows_per_object is object i itself, the rows after it are its
 // training copies; or all rows are views of it.
@@ -43,19 +42,19 @@ struct FeatureTable {
   std::vector<std::uint32_t> object_labels() const;  // N
   std::vector<std::uint32_t> object_counts() const;  // n: objects of each category, copies not counted
   std::vector<std::uint32_t> row_labels() const;     // one for each row
-  // All rows of the given objects: what judges are taught on. A copy never leaves its object.
+  // All rows of the given objects: what judges are trained on. A copy never leaves its object.
   std::vector<std::uint32_t> rows_of(std::span<const std::uint32_t> objects) const;
   // Of the object itself, or of its view number `view`.
   std::span<const float> features_of(std::uint32_t object, std::uint32_t view = 0) const;
 };
 
 // Reads and describes every object of the data set once, with its copies, on all threads and ranks of the farm. The
-// result does not depend on these, nor on the division. Where the plan makes it worth it (sharing.h), other ranks get
-// the features as they come.
-// Objects that cannot be read are left out and listed with their reason; with `strict` the first of them is thrown as
-// an InputError instead. Throws InputError when fewer than two categories are left.
+// result does not depend on these, nor on the division. Where the plan makes it worth it (worth_broadcasting.h), other
+// ranks get the features as they come. Objects that cannot be read are left out and listed with their reason; with
+// `strict` the first of them is thrown as an InputError instead. Throws InputError when fewer than two categories are
+// left.
 FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, bool strict, TaskFarm& farm,
-                              Division division, const TeachingPlan& plan, const Progress& progress);
+                              Division division, std::size_t trainings, const Progress& progress);
 
 // The same on so many threads of this process.
 FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, bool strict, int threads,

@@ -6,31 +6,31 @@
 #include "spincat/describe/stopwatch.h"
 #include "spincat/parallel/task_farm.h"
 #include "spincat/train/feature_table.h"
-#include "spincat/train/sharing.h"
+#include "spincat/train/judge_trainer.h"
 #include "spincat/train/table_familiarity.h"
-#include "spincat/train/teacher.h"
+#include "spincat/train/worth_broadcasting.h"
 
 namespace spincat {
 
 TrainResult train(const Dataset& dataset, const Settings& settings, const TrainOptions& options,
                   const Progress& progress) {
   // Describe every object and its stretched copies once.
-  OwnFarm own(options.threads);
+  LocalFarm own(options.threads);
   TaskFarm& farm = options.farm != nullptr ? *options.farm : own.farm();
-  const TeachingPlan plan = plan_of(1, true);
+  const std::size_t trainings = count_trainings(1, true);
   const FeatureTable table =
-      describe_dataset(dataset, settings, options.strict, farm, options.division, plan, progress);
+      describe_dataset(dataset, settings, options.strict, farm, options.division, trainings, progress);
   std::vector<std::uint32_t> objects(table.objects.size());
   std::iota(objects.begin(), objects.end(), 0U);
 
-  // Teach a judge for every pair of categories, and find out how far their votes can be trusted.
+  // Train a judge for every pair of categories, and find out how far their votes can be trusted.
   Stopwatch watch;
-  Teacher teacher(table, settings.judge, farm, plan, progress);
+  JudgeTrainer trainer(table, settings.judge, farm, trainings, progress);
   TrainResult result;
   Model& model = result.model;
-  CalibratedJudges taught = teacher.teach_calibrated(objects, settings.seed, progress);
-  model.judges = std::move(taught.judges);
-  model.calibration = taught.calibration;
+  CalibratedJudges trained = trainer.train_calibrated(objects, settings.seed, progress);
+  model.judges = std::move(trained.judges);
+  model.calibration = trained.calibration;
   model.familiarity = familiarity_of(table, objects);
 
   // Keep what classifying needs to repeat all of this.

@@ -24,10 +24,10 @@ struct TrainOptions {
 struct TrainResult {
   Model model;
   std::vector<SkippedObject> skipped;
-  StageSeconds seconds;  // added up over threads; judge: teaching and calibration
+  StageSeconds seconds;  // added up over threads; judge: training and calibration
 };
 
-// Teaches the judges on every object of the data set. Deterministic.
+// Trains the judges on every object of the data set. Deterministic.
 // Throws InputError when settings are out of range or fewer than two categories have an object that can be read.
 TrainResult train(const Dataset& dataset, const Settings& settings, const TrainOptions& options,
                   const Progress& progress = {});

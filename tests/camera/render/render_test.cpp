@@ -14,7 +14,7 @@ namespace {
 TEST(DrawDepth, GivesTheDepthOfAPlaneAtEveryPixel) {
   const test::Scene scene;
   const DepthImage image = scene.picture();
-  const Table table = scene.table();
+  const SupportPlane table = scene.table();
   std::size_t seen = 0;
   for (int v = 0; v < image.height; ++v) {
     for (int u = 0; u < image.width; ++u) {

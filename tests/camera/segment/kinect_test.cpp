@@ -26,7 +26,7 @@ constexpr int kFirstObject = 20;        // labels below are the table's
 std::vector<double> agreements(const fs::path& scene, const CameraCalibration& calibration) {
   const DepthImage image = decode_depth_png(read_file(scene / "depth.png"), calibration.units_per_metre);
   const DepthImage labels = decode_depth_png(read_file(scene / "label.png"), 1.0);
-  const std::optional<Table> table = find_table(image, calibration.intrinsics, {});
+  const std::optional<SupportPlane> table = find_table(image, calibration.intrinsics, {});
   if (!table) {
     ADD_FAILURE() << scene << ": no table";
     return {};

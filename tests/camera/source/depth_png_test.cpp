@@ -15,14 +15,14 @@ namespace {
 
 using test::input_error;
 
-DepthImage small_picture() {
+DepthImage thumbnail() {
   DepthImage image(3, 2);
   image.depth = {0.0F, 0.5F, 1.234F, 65.535F, 0.001F, 2.0F};
   return image;
 }
 
 TEST(DepthPng, ReadsWhatItWrote) {
-  const DepthImage image = small_picture();
+  const DepthImage image = thumbnail();
   const DepthImage back = decode_depth_png(encode_depth_png(image, 1000.0), 1000.0);
   EXPECT_EQ(back.width, 3);
   EXPECT_EQ(back.height, 2);
@@ -44,16 +44,16 @@ TEST(DepthPng, WritesSixteenBitsWhateverThePixelsAre) {
 }
 
 TEST(DepthPng, KnowsUnits) {
-  const std::string bytes = encode_depth_png(small_picture(), 1000.0);
+  const std::string bytes = encode_depth_png(thumbnail(), 1000.0);
   EXPECT_NEAR(decode_depth_png(bytes, 5000.0).at(2, 1), 0.4F, 1e-6F);
 }
 
 TEST(DepthPng, HasNoReadingForWhatIsTooFar) {
-  EXPECT_EQ(decode_depth_png(encode_depth_png(small_picture(), 5000.0), 5000.0).at(0, 1), 0.0F);
+  EXPECT_EQ(decode_depth_png(encode_depth_png(thumbnail(), 5000.0), 5000.0).at(0, 1), 0.0F);
 }
 
 TEST(DepthPng, RefusesWhatIsNoDepthPicture) {
-  const std::string bytes = encode_depth_png(small_picture(), 1000.0);
+  const std::string bytes = encode_depth_png(thumbnail(), 1000.0);
   for (std::size_t length = 0; length < bytes.size() - 12; ++length) {  // the last chunk's end is not needed
     EXPECT_NE(input_error([&] { decode_depth_png(bytes.substr(0, length), 1000.0); }), "no error") << length;
   }

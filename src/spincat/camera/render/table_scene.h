@@ -35,7 +35,7 @@ struct TableScene {
 struct SceneView {
   DepthImage image;
   std::vector<std::uint16_t> things;  // of each pixel: the number of the thing it shows, from 1; 0 for none
-  Table table;
+  SupportPlane table;
 };
 
 SceneView view_of(const TableScene& scene, const Viewpoint& viewpoint, const Intrinsics& intrinsics, int width,

@@ -92,7 +92,7 @@ PointCloud one_view(const Mesh& model, const ViewSettings& settings, Random& ran
   draw_depth(table_top, intrinsics, image);
   draw_depth(seen, intrinsics, image);
   add_sensor_noise(intrinsics, random.uniform(0.0, settings.most_noise), random, image);
-  const Table table{(viewpoint.axes * Vec3::UnitZ()).cast<float>(), static_cast<float>(viewpoint.eye.z())};
+  const SupportPlane table{(viewpoint.axes * Vec3::UnitZ()).cast<float>(), static_cast<float>(viewpoint.eye.z())};
   const Segmentation found = segment(image, intrinsics, table, settings.segment);
   if (found.objects.empty()) {
     return {};

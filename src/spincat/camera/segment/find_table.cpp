@@ -33,12 +33,12 @@ std::vector<Reading> readings_of(const DepthImage& image, const Intrinsics& intr
   return readings;
 }
 
-bool lies_on(const Table& table, const Reading& reading) {
+bool lies_on(const SupportPlane& table, const Reading& reading) {
   return std::abs(table.height(reading.point)) < plane_tolerance(reading.point.z());
 }
 
 // The share of the weight of every `step`-th reading that lies on the plane.
-double share_on(const Table& table, const std::vector<Reading>& readings, std::size_t step) {
+double share_on(const SupportPlane& table, const std::vector<Reading>& readings, std::size_t step) {
   double on = 0.0;
   double all = 0.0;
   for (std::size_t i = 0; i < readings.size(); i += step) {
@@ -48,17 +48,17 @@ double share_on(const Table& table, const std::vector<Reading>& readings, std::s
   return on / all;
 }
 
-Table towards_camera(Vector3f normal, const Vector3f& point) {
+SupportPlane towards_camera(Vector3f normal, const Vector3f& point) {
   normal.normalize();
   const float offset = -normal.dot(point);
-  return offset < 0.0F ? Table{-normal, -offset} : Table{normal, offset};
+  return offset < 0.0F ? SupportPlane{-normal, -offset} : SupportPlane{normal, offset};
 }
 
-bool may_be_table(const Table& table, const TableSettings& settings) {
+bool may_be_table(const SupportPlane& table, const TableSettings& settings) {
   return table.normal.allFinite() && (!settings.up || table.normal.dot(settings.up->normalized()) > kLeastCosine);
 }
 
-std::optional<Table> plane_of(const Vector3f& a, const Vector3f& b, const Vector3f& c) {
+std::optional<SupportPlane> plane_of(const Vector3f& a, const Vector3f& b, const Vector3f& c) {
   const Vector3f normal = (b - a).cross(c - a);
   if (!(normal.norm() > 1e-6F)) {
     return {};
@@ -67,7 +67,7 @@ std::optional<Table> plane_of(const Vector3f& a, const Vector3f& b, const Vector
 }
 
 // The plane of least squares through the readings on `table`.
-Table refitted(const Table& table, const std::vector<Reading>& readings) {
+SupportPlane refitted(const SupportPlane& table, const std::vector<Reading>& readings) {
   double weight = 0.0;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
@@ -87,15 +87,15 @@ Table refitted(const Table& table, const std::vector<Reading>& readings) {
 
 }  // namespace
 
-std::optional<Table> find_table(const DepthImage& image, const Intrinsics& intrinsics, const TableSettings& settings,
-                                const std::optional<Table>& before) {
+std::optional<SupportPlane> find_table(const DepthImage& image, const Intrinsics& intrinsics,
+                                       const TableSettings& settings, const std::optional<SupportPlane>& before) {
   const std::vector<Reading> readings = readings_of(image, intrinsics);
   if (readings.size() < kFewestReadings) {
     return {};
   }
   const std::size_t step = std::max<std::size_t>(readings.size() / kScored, 1);
-  Table best;
-  const auto consider = [&](const Table& table, double favour) {
+  SupportPlane best;
+  const auto consider = [&](const SupportPlane& table, double favour) {
     const double share = favour * share_on(table, readings, step);
     if (share > best.share) {
       best = table;
@@ -108,7 +108,7 @@ std::optional<Table> find_table(const DepthImage& image, const Intrinsics& intri
   Random random(settings.seed);
   const auto any = [&]() -> const Vector3f& { return readings[random.below(readings.size())].point; };
   for (int trial = 0; trial < settings.trials; ++trial) {
-    const std::optional<Table> table = plane_of(any(), any(), any());
+    const std::optional<SupportPlane> table = plane_of(any(), any(), any());
     if (table && may_be_table(*table, settings)) {
       consider(*table, 1.0);
     }

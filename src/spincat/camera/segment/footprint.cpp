@@ -17,7 +17,7 @@ constexpr int kMostCells = 4'000;     // along an axis; what lies beyond belongs
 // Where the pixels stand on the table, in cells.
 class Footprint {
  public:
-  Footprint(const DepthImage& image, const Intrinsics& intrinsics, const Table& table, const Labels& over_table)
+  Footprint(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table, const Labels& over_table)
       : x_axis_(table.normal.unitOrthogonal()), y_axis_(table.normal.cross(x_axis_)) {
     std::vector<Eigen::Vector2f> places;
     for (int v = 0; v < image.height; ++v) {
@@ -90,7 +90,7 @@ class Footprint {
 
 }  // namespace
 
-Labels gather_by_footprint(const DepthImage& image, const Intrinsics& intrinsics, const Table& table,
+Labels gather_by_footprint(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table,
                            const Labels& over_table) {
   return Footprint(image, intrinsics, table, over_table).components(over_table.size());
 }

@@ -13,7 +13,7 @@ float least_height_over_table(float z) {
 
 }  // namespace
 
-Labels pixels_over_table(const DepthImage& image, const Intrinsics& intrinsics, const Table& table,
+Labels pixels_over_table(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table,
                          const SegmentSettings& settings, NotObjects& left_out) {
   const TableArea area(image, intrinsics, table);
   Labels over(image.depth.size(), 0);

@@ -45,7 +45,7 @@ class DisjointSets {
 using Labels = std::vector<std::uint32_t>;
 
 // The pixels over the table that may belong to objects: 1, others 0. Counts those that lie outside the table's area.
-Labels pixels_over_table(const DepthImage& image, const Intrinsics& intrinsics, const Table& table,
+Labels pixels_over_table(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table,
                          const SegmentSettings& settings, NotObjects& left_out);
 
 // Numbers the patches of the labelled pixels: pixels of one label, at most `gap` apart in a row or column with none of
@@ -57,7 +57,7 @@ Labels split_at_grooves(const DepthImage& image, const Intrinsics& intrinsics, c
 
 // Gathers the pixels over the table (labelled 1) by where they stand on it: patches with overlapping or touching
 // footprints are one.
-Labels gather_by_footprint(const DepthImage& image, const Intrinsics& intrinsics, const Table& table,
+Labels gather_by_footprint(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table,
                            const Labels& over_table);
 
 }  // namespace spincat

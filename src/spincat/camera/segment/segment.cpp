@@ -15,7 +15,7 @@ constexpr int kGap = 3;  // pixels without a reading that a link may bridge, and
 
 // What is known of each patch, by its label.
 std::unordered_map<std::uint32_t, Segment> measured(const DepthImage& image, const Intrinsics& intrinsics,
-                                                    const Table& table, const Labels& patches,
+                                                    const SupportPlane& table, const Labels& patches,
                                                     std::vector<std::uint32_t>& order) {
   std::unordered_map<std::uint32_t, Segment> found;
   for (int v = 0; v < image.height; ++v) {
@@ -43,7 +43,7 @@ std::unordered_map<std::uint32_t, Segment> measured(const DepthImage& image, con
   return found;
 }
 
-Labels patches_of(const DepthImage& image, const Intrinsics& intrinsics, const Table& table,
+Labels patches_of(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table,
                   const SegmentSettings& settings, NotObjects& left_out) {
   const Labels over = pixels_over_table(image, intrinsics, table, settings, left_out);
   if (settings.split == SegmentSplit::footprint) {
@@ -64,7 +64,7 @@ void SegmentSettings::validate() const {
   }
 }
 
-Segmentation segment(const DepthImage& image, const Intrinsics& intrinsics, const Table& table,
+Segmentation segment(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table,
                      const SegmentSettings& settings) {
   Segmentation result;
   const Labels patches = patches_of(image, intrinsics, table, settings, result.left_out);

@@ -53,7 +53,7 @@ struct Segmentation {
 
 // Finds the objects on the table: pixels over it, linked where their depths agree, parted by `settings.split`. Numbered
 // by their first pixels, row by row from the top. Deterministic.
-Segmentation segment(const DepthImage& image, const Intrinsics& intrinsics, const Table& table,
+Segmentation segment(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table,
                      const SegmentSettings& settings);
 
 }  // namespace spincat

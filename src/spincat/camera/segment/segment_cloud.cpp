@@ -72,7 +72,7 @@ class Normals {
 
 }  // namespace
 
-PointCloud segment_cloud(const DepthImage& image, const Intrinsics& intrinsics, const Table& table,
+PointCloud segment_cloud(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table,
                          const Segmentation& segmentation, const Segment& segment) {
   const Eigen::Vector3d up = table.normal.cast<double>();
   Eigen::Matrix3d to_table;  // rows: the axes of the table's frame, in the camera's

@@ -16,7 +16,7 @@ inline constexpr std::size_t kMostCloudPoints = 2'048;
 // it was. At most kMostCloudPoints pixels are taken, evenly in the order of rows. Normals are those of the plane
 // through the object's points within 9 mm (of pixels, both ways), whose depth agrees; they point to the sensor. Pixels
 // too lonely for a plane are left out. Deterministic.
-PointCloud segment_cloud(const DepthImage& image, const Intrinsics& intrinsics, const Table& table,
+PointCloud segment_cloud(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table,
                          const Segmentation& segmentation, const Segment& segment);
 
 }  // namespace spincat

@@ -13,7 +13,7 @@ namespace spincat {
 
 // All points x with normal . x + offset = 0, in metres in the camera's frame. The normal has length 1 and points to the
 // side of the camera.
-struct Table {
+struct SupportPlane {
   Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();
   float offset = 0.0F;
   double share = 0.0;  // of the readings that lie on it, near ones counting more
@@ -36,13 +36,13 @@ inline float plane_tolerance(float z) {
 // The plane with most readings on it, each weighted by 1 / z^2: the best of random triples (RANSAC, Fischler and Bolles
 // 1981), refined by least squares. `before`, the table of the frame before, is kept where hardly another is better. No
 // table where there are too few readings, or none of the planes holds least_share of them. Deterministic.
-std::optional<Table> find_table(const DepthImage& image, const Intrinsics& intrinsics, const TableSettings& settings,
-                                const std::optional<Table>& before = {});
+std::optional<SupportPlane> find_table(const DepthImage& image, const Intrinsics& intrinsics,
+                                       const TableSettings& settings, const std::optional<SupportPlane>& before = {});
 
 // The convex hull of what is seen of a table, in cells of 2 cm, two cells wider all round.
 class TableArea {
  public:
-  TableArea(const DepthImage& image, const Intrinsics& intrinsics, const Table& table);
+  TableArea(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table);
 
   // Whether the point lies above (or below) the area.
   bool contains(const Eigen::Vector3f& point) const;
@@ -54,7 +54,8 @@ class TableArea {
     int y;
   };
   Cell cell_of(const Eigen::Vector3f& point) const;
-  std::vector<std::uint8_t> filled_cells(const DepthImage& image, const Intrinsics& intrinsics, const Table& table);
+  std::vector<std::uint8_t> filled_cells(const DepthImage& image, const Intrinsics& intrinsics,
+                                         const SupportPlane& table);
 
   Eigen::Vector3f x_axis_;
   Eigen::Vector3f y_axis_;

@@ -153,7 +153,7 @@ std::vector<GridPoint> large_components(const std::vector<GridPoint>& cells, Gri
 
 }  // namespace
 
-TableArea::TableArea(const DepthImage& image, const Intrinsics& intrinsics, const Table& table)
+TableArea::TableArea(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table)
     : x_axis_(table.normal.unitOrthogonal()), y_axis_(table.normal.cross(x_axis_)) {
   std::vector<std::uint8_t> filled = filled_cells(image, intrinsics, table);
   const Grid grid{columns_, rows_, filled};
@@ -179,7 +179,7 @@ TableArea::TableArea(const DepthImage& image, const Intrinsics& intrinsics, cons
 
 // Chooses the grid around the readings on the table, and fills the cells that hold one.
 std::vector<std::uint8_t> TableArea::filled_cells(const DepthImage& image, const Intrinsics& intrinsics,
-                                                  const Table& table) {
+                                                  const SupportPlane& table) {
   std::vector<Eigen::Vector2f> on_table;
   for (int v = 0; v < image.height; v += kStride) {
     for (int u = 0; u < image.width; u += kStride) {

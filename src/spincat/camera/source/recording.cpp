@@ -15,7 +15,7 @@
 #include "spincat/camera/source/frame_source.h"
 #include "spincat/error.h"
 #include "spincat/files/file.h"
-#include "spincat/files/system_words.h"
+#include "spincat/files/system_error_text.h"
 #include "spincat/io/organized_cloud.h"
 
 namespace spincat {
@@ -32,7 +32,7 @@ bool has_extension(const fs::path& file, std::string_view extension) {
 }
 
 // Names in the order in which people count: frame9 before frame10.
-bool counts_before(const std::string& a, const std::string& b) {
+bool natural_less(const std::string& a, const std::string& b) {
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
   std::size_t i = 0;
   std::size_t j = 0;
@@ -66,7 +66,7 @@ fs::file_status status_of(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::status_known(status)) {
-    throw InputError(path.string(), in_words(error.value()));
+    throw InputError(path.string(), system_error_text(error.value()));
   }
   return status;
 }
@@ -124,10 +124,10 @@ FrameList files_in(const fs::path& folder) {
     }
   }
   if (error) {
-    throw InputError(folder.string(), "cannot be read: " + in_words(error.value()));
+    throw InputError(folder.string(), "cannot be read: " + system_error_text(error.value()));
   }
   std::vector<std::string>& files = pictures.empty() ? clouds : pictures;
-  std::ranges::sort(files, counts_before);
+  std::ranges::sort(files, natural_less);
   FrameList frames;
   for (std::string& file : files) {
     frames.push_back({std::move(file), static_cast<double>(frames.size()) / kFramesPerSecond});

@@ -24,7 +24,7 @@
 
 #include "spincat/error.h"
 #include "spincat/files/file.h"
-#include "spincat/files/system_words.h"
+#include "spincat/files/system_error_text.h"
 #include "spincat/io/formats/binary.h"
 #include "spincat/io/text_cursor.h"
 
@@ -188,7 +188,7 @@ std::filesystem::path path_beside(const std::filesystem::path& folder, const std
 struct stat status_beside(const std::filesystem::path& folder, const std::string& uri) {
   struct stat status = {};
   if (::stat(path_beside(folder, uri).c_str(), &status) != 0)
-    throw InputError(fmt::format("its buffer {}: {}", in_quotes(uri), in_words(errno)));
+    throw InputError(fmt::format("its buffer {}: {}", in_quotes(uri), system_error_text(errno)));
   if (!S_ISREG(status.st_mode)) throw InputError(fmt::format("its buffer {} is no regular file", in_quotes(uri)));
   return status;
 }

@@ -9,7 +9,7 @@ const objectName = (i) => tested.files[i].slice(testedFolder.length);
 const rowTotals = result.confusion.map((row) => row.reduce((sum, count) => sum + count, 0));
 
 function protocolText() {
-  if (result.run.protocol === 'leave-one-out') return 'each object named by judges taught on all others';
+  if (result.run.protocol === 'leave-one-out') return 'each object named by judges trained on all others';
   if (result.run.protocol === 'across') return 'all objects of ' + result.run.test_dataset + ', once';
   const seeds = result.run.split_seeds.length;
   return countText(result.splits * seeds, 'random split') + (seeds > 1 ? ' (' + result.splits + ' for each of ' + seeds + ' seeds)' : '') +

@@ -18,18 +18,18 @@ namespace spincat {
 bool may_share_gram(Eigen::Index rows, Eigen::Index matrices);
 
 // A training on some objects of a table and their copies. Where the table holds local features, their codebook is
-// learned first, from these objects alone. Judges may be taught by several threads at once. Deterministic.
-class Lesson {
+// learned first, from these objects alone. Judges may be trained by several threads at once. Deterministic.
+class Training {
  public:
   // `gram` is that of the whole table or empty. What is passed by reference must outlive this object.
   // Precondition: every category has an object among them.
-  Lesson(const FeatureTable& table, const SharedGram& gram, std::span<const std::uint32_t> objects,
+  Training(const FeatureTable& table, const GramMatrices& gram, std::span<const std::uint32_t> objects,
          const JudgeSettings& settings);
-  Lesson(const Lesson&) = delete;
-  Lesson& operator=(const Lesson&) = delete;
+  Training(const Training&) = delete;
+  Training& operator=(const Training&) = delete;
 
   // The judges of the given pairs.
-  std::vector<Judge> teach(std::span<const CategoryPair> pairs) const;
+  std::vector<Judge> train(std::span<const CategoryPair> pairs) const;
 
   // Whether judges can do without their support vectors: those of a linear kernel.
   bool folds() const { return settings_.kernel == KernelKind::linear; }
@@ -51,7 +51,7 @@ class Lesson {
   const JudgeSettings settings_;
   Codebook codebook_;
   FeatureMatrix counted_;  // what the codebook counts in the rows of the table
-  SharedGram counted_gram_;
+  GramMatrices counted_gram_;
   std::optional<TrainingSet> training_;
 };
 

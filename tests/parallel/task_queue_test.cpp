@@ -1,12 +1,12 @@
-#include "spincat/parallel/task_board.h"
+#include "spincat/parallel/task_queue.h"
 
 #include <gtest/gtest.h>
 
 namespace {
 
-using spincat::TaskBoard;
-using Time = TaskBoard::Time;
-using Seconds = TaskBoard::Seconds;
+using spincat::TaskQueue;
+using Time = TaskQueue::Time;
+using Seconds = TaskQueue::Seconds;
 
 const Time kStart{};
 const Seconds kPatience(5.0);
@@ -15,8 +15,8 @@ Time after(double seconds) {
   return kStart + std::chrono::duration_cast<Time::duration>(Seconds(seconds));
 }
 
-TEST(TaskBoard, HandsOutInOrderUpToTheWindow) {
-  TaskBoard board(5, 3);
+TEST(TaskQueue, HandsOutInOrderUpToTheWindow) {
+  TaskQueue board(5, 3);
   EXPECT_EQ(board.next_for(1, kStart, kPatience), 0U);
   EXPECT_EQ(board.next_for(2, kStart, kPatience), 1U);
   EXPECT_EQ(board.next_for(1, kStart, kPatience), 2U);
@@ -27,8 +27,8 @@ TEST(TaskBoard, HandsOutInOrderUpToTheWindow) {
   EXPECT_EQ(board.next_for(1, kStart, kPatience), 3U);
 }
 
-TEST(TaskBoard, TasksOfALostRankComeFirst) {
-  TaskBoard board(4, 10);
+TEST(TaskQueue, TasksOfALostRankComeFirst) {
+  TaskQueue board(4, 10);
   board.next_for(1, kStart, kPatience);
   board.next_for(2, kStart, kPatience);
   EXPECT_EQ(board.take_back(1), 1U);
@@ -37,8 +37,8 @@ TEST(TaskBoard, TasksOfALostRankComeFirst) {
   EXPECT_EQ(board.next_for(2, kStart, kPatience), 2U);
 }
 
-TEST(TaskBoard, TheFirstResultCounts) {
-  TaskBoard board(1, 10);
+TEST(TaskQueue, TheFirstResultCounts) {
+  TaskQueue board(1, 10);
   board.next_for(1, kStart, kPatience);
   board.take_back(1);
   board.next_for(2, kStart, kPatience);
@@ -48,16 +48,16 @@ TEST(TaskBoard, TheFirstResultCounts) {
   EXPECT_TRUE(board.all_delivered());
 }
 
-TEST(TaskBoard, ATaskThatWasTakenBackAndCameIsNotDoneAgain) {
-  TaskBoard board(1, 10);
+TEST(TaskQueue, ATaskThatWasTakenBackAndCameIsNotDoneAgain) {
+  TaskQueue board(1, 10);
   board.next_for(1, kStart, kPatience);
   board.take_back(1);
   EXPECT_TRUE(board.finish(0));
   EXPECT_EQ(board.next_for(2, kStart, kPatience), std::nullopt);
 }
 
-TEST(TaskBoard, AtTheEndSlowTasksAreDoneTwiceByOthers) {
-  TaskBoard board(1, 10);
+TEST(TaskQueue, AtTheEndSlowTasksAreDoneTwiceByOthers) {
+  TaskQueue board(1, 10);
   board.next_for(1, kStart, kPatience);
   EXPECT_EQ(board.next_for(2, after(4.9), kPatience), std::nullopt);
   EXPECT_EQ(board.next_for(1, after(5.1), kPatience), std::nullopt);  // not by the same rank
@@ -67,8 +67,8 @@ TEST(TaskBoard, AtTheEndSlowTasksAreDoneTwiceByOthers) {
   EXPECT_EQ(board.take_back(2), 1U);
 }
 
-TEST(TaskBoard, PassesOverWhatIsDoneAlready) {
-  TaskBoard board(3, 10);
+TEST(TaskQueue, PassesOverWhatIsDoneAlready) {
+  TaskQueue board(3, 10);
   board.finish(0);
   board.finish(1);
   EXPECT_EQ(board.next_for(1, kStart, kPatience), 2U);

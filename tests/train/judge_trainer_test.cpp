@@ -1,5 +1,5 @@
-// Teaching shared out over ranks (threads that play them) gives what one thread gives.
-#include "spincat/train/teacher.h"
+// Training shared out over ranks (threads that play them) gives what one thread gives.
+#include "spincat/train/judge_trainer.h"
 
 #include <gtest/gtest.h>
 
@@ -15,14 +15,14 @@
 #include "spincat/geometry/random.h"
 #include "spincat/parallel/task_server.h"
 #include "spincat/rank_work.h"
-#include "spincat/train/teach_tasks.h"
+#include "spincat/train/train_tasks.h"
 #include "support/temp_dir.h"
 #include "support/tiny_dataset.h"
 
 namespace spincat {
 namespace {
 
-constexpr TeachingPlan kWorthSharing{1'000'000'000};  // so much work that a tiny table is sent
+constexpr std::size_t kWorthBroadcasting = 1'000'000'000;  // so much work that a tiny table is sent
 
 // 30 objects of three categories, each with a copy; 24 features in blocks of 8, or as three local features.
 FeatureTable noisy_table(bool local) {
@@ -51,10 +51,10 @@ std::vector<std::uint32_t> all_objects() {
   return objects;
 }
 
-CalibratedJudges teach_on(TaskFarm& farm, const FeatureTable& table, const JudgeSettings& settings) {
-  Teacher teacher(table, settings, farm, kWorthSharing);
-  EXPECT_TRUE(teacher.is_shared());
-  return teacher.teach_calibrated(all_objects(), 7);
+CalibratedJudges train_on(TaskFarm& farm, const FeatureTable& table, const JudgeSettings& settings) {
+  JudgeTrainer trainer(table, settings, farm, kWorthBroadcasting);
+  EXPECT_TRUE(trainer.is_shared());
+  return trainer.train_calibrated(all_objects(), 7);
 }
 
 std::string packed(const Context& context) {
@@ -71,7 +71,7 @@ std::string table_context(const FeatureTable& table) {
 
 std::string gram_context(std::uint64_t shared_as = kSharedAs) {
   return packed([=](Packer& packer) {
-    pack_expected({shared_as, 0}, packer);
+    pack_ticket({shared_as, 0}, packer);
     packer.add(KernelKind::linear);
   });
 }
@@ -121,36 +121,36 @@ class ServingRanks {
   std::vector<std::thread> servers_;
 };
 
-class Teaching : public testing::TestWithParam<std::tuple<KernelKind, bool>> {};
-INSTANTIATE_TEST_SUITE_P(Kernels, Teaching,
+class Training : public testing::TestWithParam<std::tuple<KernelKind, bool>> {};
+INSTANTIATE_TEST_SUITE_P(Kernels, Training,
                          testing::Combine(testing::Values(KernelKind::linear, KernelKind::rbf), testing::Bool()));
 
-TEST_P(Teaching, DoesNotDependOnRanksAndThreads) {
+TEST_P(Training, DoesNotDependOnRanksAndThreads) {
   const auto [kernel, local] = GetParam();
   const FeatureTable table = noisy_table(local);
   const JudgeSettings settings{kernel, default_c(kernel), true};
-  OwnFarm one(1);
-  Teacher alone(table, settings, one.farm(), kWorthSharing);
-  const auto [judges, calibration] = alone.teach_calibrated(all_objects(), 7);
+  LocalFarm one(1);
+  JudgeTrainer alone(table, settings, one.farm(), kWorthBroadcasting);
+  const auto [judges, calibration] = alone.train_calibrated(all_objects(), 7);
   ASSERT_EQ(judges.size(), 3U);
   EXPECT_NE(calibration.slope, Calibration{}.slope);
   for (const int count : {2, 4}) {
     ServingRanks ranks(count);
     TaskFarm farm(ranks.communicator());
     farm.use_threads(2, 2);
-    const CalibratedJudges taught = teach_on(farm, table, settings);
-    EXPECT_EQ(taught.judges.weights, judges.weights);
-    EXPECT_EQ(taught.judges.support_vectors, judges.support_vectors);
-    EXPECT_EQ(taught.judges.bias, judges.bias);
-    EXPECT_EQ(taught.judges.supports, judges.supports);
-    EXPECT_EQ(taught.calibration.slope, calibration.slope);
-    EXPECT_EQ(taught.calibration.offset, calibration.offset);
-    EXPECT_EQ(taught.calibration.familiarity_slope, calibration.familiarity_slope);
+    const CalibratedJudges trained = train_on(farm, table, settings);
+    EXPECT_EQ(trained.judges.weights, judges.weights);
+    EXPECT_EQ(trained.judges.support_vectors, judges.support_vectors);
+    EXPECT_EQ(trained.judges.bias, judges.bias);
+    EXPECT_EQ(trained.judges.supports, judges.supports);
+    EXPECT_EQ(trained.calibration.slope, calibration.slope);
+    EXPECT_EQ(trained.calibration.offset, calibration.offset);
+    EXPECT_EQ(trained.calibration.familiarity_slope, calibration.familiarity_slope);
   }
 }
 
 // Ranks that were told the features as they came need no table, and one that was not takes no part.
-TEST(Teaching, RanksUseTheRowsTheyKept) {
+TEST(Training, RanksUseTheRowsTheyKept) {
   FeatureTable table = noisy_table(false);
   for (std::uint32_t i = 0; i < 30; ++i) {
     table.described_as.push_back(2 * i + 1);  // every other file could not be read
@@ -175,7 +175,7 @@ TEST(Teaching, RanksUseTheRowsTheyKept) {
 }
 
 // As a sweep over settings of the judges does.
-TEST(Teaching, RanksKeepATableForAnotherTeacher) {
+TEST(Training, RanksKeepATableForAnotherTrainer) {
   const test::TempDir dir;
   test::write_tiny_shapes(dir, "shapes", 4);
   constexpr int kRanks = 3;
@@ -183,16 +183,16 @@ TEST(Teaching, RanksKeepATableForAnotherTeacher) {
   {
     TaskFarm farm(ranks.communicator());
     const FeatureTable table = describe_dataset(read_dataset({dir / "shapes"}), test::tiny_settings(), false, farm,
-                                                Division::sums, kWorthSharing, {});
+                                                Division::sums, kWorthBroadcasting, {});
     ASSERT_EQ(table.described_as.size(), 12U);
     std::vector<std::uint32_t> objects(12);
     std::iota(objects.begin(), objects.end(), 0U);
     for (const double c : {3.0, 300.0}) {
       const JudgeSettings settings{KernelKind::linear, c, true};
-      Teacher teacher(table, settings, farm, kWorthSharing);
-      OwnFarm one(1);
-      Teacher alone(table, settings, one.farm(), kWorthSharing);
-      EXPECT_EQ(teacher.teach(objects).weights, alone.teach(objects).weights);
+      JudgeTrainer trainer(table, settings, farm, kWorthBroadcasting);
+      LocalFarm one(1);
+      JudgeTrainer alone(table, settings, one.farm(), kWorthBroadcasting);
+      EXPECT_EQ(trainer.train(objects).weights, alone.train(objects).weights);
     }
   }
   for (const char* kind : {kTableTasks, kGramTasks, kJudgesTasks}) {
@@ -200,34 +200,34 @@ TEST(Teaching, RanksKeepATableForAnotherTeacher) {
   }
 }
 
-TEST(Teaching, TinyTablesStayHere) {
+TEST(Training, TinyTablesStayHere) {
   const FeatureTable table = noisy_table(false);
   ServingRanks ranks(2);
   TaskFarm farm(ranks.communicator());
-  Teacher teacher(table, {}, farm, {});
-  EXPECT_FALSE(teacher.is_shared());
-  teacher.teach(all_objects());
+  JudgeTrainer trainer(table, {}, farm, {});
+  EXPECT_FALSE(trainer.is_shared());
+  trainer.train(all_objects());
   EXPECT_EQ(farm.report().seconds, 0.0);
 }
 
 TEST(Trials, AreTheSameFromWhatARankKeeps) {
   EvaluationData data;
   data.table = noisy_table(false);
-  data.strangers.objects.push_back({"stranger", 0, ""});
-  data.strangers.features = FeatureMatrix::Constant(1, 24, 2.0F);
-  data.strangers.problems = {""};
+  data.unknown_objects.objects.push_back({"stranger", 0, ""});
+  data.unknown_objects.features = FeatureMatrix::Constant(1, 24, 2.0F);
+  data.unknown_objects.problems = {""};
   data.tested = TestTable{data.table.objects,           1,  data.table.features(Eigen::seq(1, 59, 2), Eigen::all),
                           std::vector<std::string>(30), {}, {}};
   const Settings settings = preset("default");
-  OwnFarm one(1);
-  Teacher teacher(data.table, settings.judge, one.farm(), {});
+  LocalFarm one(1);
+  JudgeTrainer trainer(data.table, settings.judge, one.farm(), {});
   Split split;
   for (std::uint32_t i = 0; i < 30; ++i) {
     (i % 4 == 0 ? split.test : split.train).push_back(i);
   }
-  const Trial expected = run_trial(trial_data(data), teacher, split, settings, true);
+  const Trial expected = run_trial(trial_data(data), trainer, split, settings, true);
   EXPECT_EQ(expected.named.size(), split.test.size());
-  EXPECT_EQ(expected.strangers.size(), 1U);
+  EXPECT_EQ(expected.unknown_objects.size(), 1U);
 
   RankState kept;
   make_table_work(table_context(data.table), kept);
@@ -240,14 +240,14 @@ TEST(Trials, AreTheSameFromWhatARankKeeps) {
     EXPECT_THROW(make_trial_work(trials, kept), RunError) << "without strip " << i;
     gram.keep(i, gram.work(pack(strips[i])));
   }
-  EXPECT_EQ(kept.gram.blocks[0], teacher.gram().blocks[0]);
+  EXPECT_EQ(kept.gram.blocks[0], trainer.gram().blocks[0]);
   const Work work = make_trial_work(trials, kept);
   const Trial found = unpack_trial(work(pack(split)), 3);
   EXPECT_EQ(found.confusion, expected.confusion);
   EXPECT_EQ(found.named, expected.named);
   EXPECT_EQ(found.right, expected.right);
   EXPECT_EQ(found.wrong, expected.wrong);
-  EXPECT_EQ(found.strangers, expected.strangers);
+  EXPECT_EQ(found.unknown_objects, expected.unknown_objects);
 }
 
 }  // namespace

@@ -1,16 +1,16 @@
-#include "spincat/train/sharing.h"
+#include "spincat/train/worth_broadcasting.h"
 
 #include "spincat/train/calibration_folds.h"
 
 namespace spincat {
 
-TeachingPlan plan_of(std::size_t trainings, bool calibrated) {
-  return {trainings * static_cast<std::size_t>(calibrated ? 1 + kCalibrationFolds : 1)};
+std::size_t count_trainings(std::size_t trainings, bool calibrated) {
+  return trainings * static_cast<std::size_t>(calibrated ? 1 + kCalibrationFolds : 1);
 }
 
 // Rough: a core does 10^10 products a second, and 10^9 bytes a second leave this process.
-bool pays_to_share(const TableSize& table, const TeachingPlan& plan, const TaskFarm& farm) {
-  if (farm.ranks() < 2 || farm.shares_always()) {
+bool worth_broadcasting(const TableSize& table, std::size_t trainings, const TaskFarm& farm) {
+  if (farm.ranks() < 2 || farm.always_broadcasts()) {
     return farm.ranks() > 1;
   }
   const auto rows = static_cast<double>(table.rows);
@@ -18,8 +18,8 @@ bool pays_to_share(const TableSize& table, const TeachingPlan& plan, const TaskF
   const auto categories = static_cast<double>(table.categories);
   const auto objects = static_cast<double>(table.objects);
   const double gram = 0.5 * rows * rows * length;
-  const double lesson = length * categories * (rows + 0.5 * categories * objects / kCalibrationFolds);
-  const double seconds_here = (gram + static_cast<double>(plan.lessons) * lesson) / 1e10 / farm.threads();
+  const double training = length * categories * (rows + 0.5 * categories * objects / kCalibrationFolds);
+  const double seconds_here = (gram + static_cast<double>(trainings) * training) / 1e10 / farm.threads();
   const double bytes = 4.0 * (rows * length + rows * rows);
   const double seconds_sending = bytes * (farm.ranks() - 1) / 1e9;
   return 0.5 * seconds_here > seconds_sending;

@@ -1,10 +1,10 @@
-#include "spincat/parallel/task_board.h"
+#include "spincat/parallel/task_queue.h"
 
 namespace spincat {
 
-TaskBoard::TaskBoard(std::size_t tasks, std::size_t window) : window_(window), done_(tasks, false) {}
+TaskQueue::TaskQueue(std::size_t tasks, std::size_t window) : window_(window), done_(tasks, false) {}
 
-std::optional<std::size_t> TaskBoard::next_for(int rank, Time now, Seconds patience) {
+std::optional<std::size_t> TaskQueue::next_for(int rank, Time now, Seconds patience) {
   std::optional<std::size_t> task;
   while (!taken_back_.empty() && !task) {
     if (!done_[taken_back_.front()]) {
@@ -29,7 +29,7 @@ std::optional<std::size_t> TaskBoard::next_for(int rank, Time now, Seconds patie
   return task;
 }
 
-std::optional<std::size_t> TaskBoard::slow_one(int rank, Time now, Seconds patience) const {
+std::optional<std::size_t> TaskQueue::slow_one(int rank, Time now, Seconds patience) const {
   for (const auto& [task, pending] : pending_) {
     if (pending.ranks.size() == 1 && pending.ranks[0] != rank && now - pending.since > patience) {
       return task;
@@ -38,14 +38,14 @@ std::optional<std::size_t> TaskBoard::slow_one(int rank, Time now, Seconds patie
   return std::nullopt;
 }
 
-bool TaskBoard::finish(std::size_t task) {
+bool TaskQueue::finish(std::size_t task) {
   pending_.erase(task);
   const bool first = !done_[task];
   done_[task] = true;
   return first;
 }
 
-std::size_t TaskBoard::take_back(int rank) {
+std::size_t TaskQueue::take_back(int rank) {
   std::size_t count = 0;
   for (auto it = pending_.begin(); it != pending_.end();) {
     if (std::erase(it->second.ranks, rank) > 0 && it->second.ranks.empty()) {

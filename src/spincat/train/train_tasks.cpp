@@ -1,4 +1,4 @@
-#include "spincat/train/teach_tasks.h"
+#include "spincat/train/train_tasks.h"
 
 #include <algorithm>
 #include <optional>
@@ -44,28 +44,28 @@ void pack_folded(Packer& packer, const FoldedJudge& judge) {
   packer.add(std::span<const float>(weights.data(), static_cast<std::size_t>(weights.size())));
 }
 
-std::string do_judges(Lessons& lessons, std::string_view bytes) {
+std::string do_judges(Trainings& trainings, std::string_view bytes) {
   Unpacker fields(bytes);
   const auto number = fields.get<std::uint32_t>();
   const auto first = fields.get<std::uint32_t>();
   const auto last = fields.get<std::uint32_t>();
-  const Lesson& lesson = lessons.lesson(number);
-  const std::vector<CategoryPair> pairs = all_pairs(static_cast<std::uint32_t>(lessons.table().categories.size()));
-  const std::vector<Judge> judges = lesson.teach(std::span(pairs).subspan(first, last - first));
+  const Training& training = trainings.training(number);
+  const std::vector<CategoryPair> pairs = all_pairs(static_cast<std::uint32_t>(trainings.table().categories.size()));
+  const std::vector<Judge> judges = training.train(std::span(pairs).subspan(first, last - first));
   Packer packer;
-  const std::vector<std::uint32_t>& judged = lessons.plan(number).judged;
-  if (!judged.empty()) {
-    pack_matrix(packer, lesson.margins(judges, judged));
+  const std::vector<std::uint32_t>& held_out = trainings.plan(number).held_out;
+  if (!held_out.empty()) {
+    pack_matrix(packer, training.margins(judges, held_out));
     return packer.take();
   }
-  if (lesson.folds()) {
+  if (training.folds()) {
     constexpr std::size_t kBesidesWeights = 16;  // bytes of a judge
-    const auto weights = static_cast<std::size_t>(lessons.table().features.cols());
+    const auto weights = static_cast<std::size_t>(trainings.table().features.cols());
     packer.reserve(judges.size() * (weights * sizeof(float) + kBesidesWeights));
   }
   for (const Judge& judge : judges) {
-    if (lesson.folds()) {
-      pack_folded(packer, lesson.fold(judge));
+    if (training.folds()) {
+      pack_folded(packer, training.fold(judge));
     } else {
       pack_judge(packer, judge);
     }
@@ -132,8 +132,8 @@ std::string pack(const GramTask& task) {
   return Packer().add(task.matrix).add(task.strip).take();
 }
 
-SharedGram unfilled_gram(const FeatureTable& table, KernelKind kind) {
-  SharedGram gram;
+GramMatrices unfilled_gram(const FeatureTable& table, KernelKind kind) {
+  GramMatrices gram;
   const Eigen::Index rows = table.features.rows();
   for (std::size_t i = 0; i < gram_columns(kind, table.blocks, table.features.cols()).size(); ++i) {
     gram.blocks.emplace_back(rows, rows);
@@ -141,7 +141,7 @@ SharedGram unfilled_gram(const FeatureTable& table, KernelKind kind) {
   return gram;
 }
 
-void put_strip(const GramTask& task, std::string_view result, SharedGram& gram) {
+void put_strip(const GramTask& task, std::string_view result, GramMatrices& gram) {
   Unpacker fields(result);
   put_gram_strip(unpack_matrix<Eigen::MatrixXf>(fields), task.strip, gram.blocks[task.matrix]);
 }
@@ -156,26 +156,27 @@ Work gram_work(const FeatureTable& table, KernelKind kind) {
   };
 }
 
-std::vector<JudgesTask> judges_tasks(const FeatureTable& table, KernelKind kind, std::span<const LessonPlan> lessons) {
+std::vector<JudgesTask> judges_tasks(const FeatureTable& table, KernelKind kind,
+                                     std::span<const TrainingPlan> trainings) {
   // Short tasks, so that the last ones keep nobody waiting for long; margins take less time than folding.
   constexpr std::uint32_t kJudges = 32;
   constexpr std::uint32_t kJudgedJudges = 96;
   const auto categories = static_cast<std::uint32_t>(table.categories.size());
   const std::uint32_t pairs = categories * (categories - 1) / 2;
   std::vector<JudgesTask> tasks;
-  for (std::uint32_t lesson = 0; lesson < lessons.size(); ++lesson) {
+  for (std::uint32_t training = 0; training < trainings.size(); ++training) {
     // The margins of all judges with a kernel of their own need the same row of it, which takes longest.
-    const bool together = kind != KernelKind::linear && !lessons[lesson].judged.empty();
-    const std::uint32_t each = together ? pairs : lessons[lesson].judged.empty() ? kJudges : kJudgedJudges;
+    const bool together = kind != KernelKind::linear && !trainings[training].held_out.empty();
+    const std::uint32_t each = together ? pairs : trainings[training].held_out.empty() ? kJudges : kJudgedJudges;
     for (std::uint32_t first = 0; first < pairs; first += each) {
-      tasks.push_back({lesson, first, std::min(first + each, pairs)});
+      tasks.push_back({training, first, std::min(first + each, pairs)});
     }
   }
   return tasks;
 }
 
 std::string pack(const JudgesTask& task) {
-  return Packer().add(task.lesson).add(task.first).add(task.last).take();
+  return Packer().add(task.training).add(task.first).add(task.last).take();
 }
 
 void put_folded(std::string_view result, std::uint32_t first, JudgeList& list) {
@@ -205,26 +206,26 @@ FeatureMatrix unpack_margins(std::string_view result, std::size_t objects) {
   return margins;
 }
 
-void pack_lessons(const Expected& expected, const JudgeSettings& settings, std::span<const LessonPlan> lessons,
-                  Packer& packer) {
+void pack_trainings(const TableTicket& expected, const JudgeSettings& settings, std::span<const TrainingPlan> trainings,
+                    Packer& packer) {
   const auto& [kernel, c, class_weights] = settings;
-  pack_expected(expected, packer);
+  pack_ticket(expected, packer);
   packer.add(kernel).add(c).add(class_weights);
-  for (const auto& [taught, judged] : lessons) {
-    packer.add(std::span<const std::uint32_t>(taught)).add(std::span<const std::uint32_t>(judged));
+  for (const auto& [trained, judged] : trainings) {
+    packer.add(std::span<const std::uint32_t>(trained)).add(std::span<const std::uint32_t>(judged));
   }
 }
 
-Work judges_work(std::shared_ptr<Lessons> lessons) {
-  return [lessons = std::move(lessons)](std::string_view task) { return do_judges(*lessons, task); };
+Work judges_work(std::shared_ptr<Trainings> trainings) {
+  return [trainings = std::move(trainings)](std::string_view task) { return do_judges(*trainings, task); };
 }
 
-void pack_expected(const Expected& expected, Packer& packer) {
+void pack_ticket(const TableTicket& expected, Packer& packer) {
   packer.add(expected.shared_as).add(expected.matrices);
 }
 
-const RankState& expected_of(Unpacker& fields, const RankState& kept) {
-  const bool all_strips = std::ranges::find(kept.no_strip, true) == kept.no_strip.end();
+const RankState& check_ticket(Unpacker& fields, const RankState& kept) {
+  const bool all_strips = std::ranges::find(kept.missing_strips, true) == kept.missing_strips.end();
   const auto shared_as = fields.get<std::uint64_t>();
   const auto matrices = fields.get<std::uint32_t>();
   if (shared_as == 0 || kept.shared_as != shared_as || kept.gram.blocks.size() != matrices || !all_strips) {
@@ -241,7 +242,7 @@ Work make_table_work(std::string_view context, RankState& kept) {
   const bool has_table = number != 0 && !rows && kept.shared_as != 0 && kept.table.number == number;
   if (has_table) {
     kept.gram = {};
-    kept.no_strip.clear();
+    kept.missing_strips.clear();
   } else {
     kept = {};  // first: both at once may be too much
     kept.table = unpack_table(fields, number, std::move(rows));
@@ -252,33 +253,33 @@ Work make_table_work(std::string_view context, RankState& kept) {
 
 RankWork make_gram_work(std::string_view context, RankState& kept) {
   Unpacker fields(context);
-  const FeatureTable& table = expected_of(fields, kept).table;
+  const FeatureTable& table = check_ticket(fields, kept).table;
   const auto kind = fields.get<KernelKind>();
   const std::vector<GramTask> tasks = gram_tasks(table, kind);
   kept.gram = unfilled_gram(table, kind);
-  kept.no_strip.assign(tasks.size(), true);
+  kept.missing_strips.assign(tasks.size(), true);
   RankWork work = gram_work(table, kind);
   work.keep = [&kept, tasks](std::size_t i, std::string_view result) {
     put_strip(tasks.at(i), result, kept.gram);
-    kept.no_strip[i] = false;
+    kept.missing_strips[i] = false;
   };
   return work;
 }
 
 Work make_judges_work(std::string_view context, const RankState& kept) {
   Unpacker fields(context);
-  expected_of(fields, kept);
+  check_ticket(fields, kept);
   JudgeSettings settings;
   settings.kernel = fields.get<KernelKind>();
   settings.c = fields.get<double>();
   settings.class_weights = fields.get<bool>();
-  std::vector<LessonPlan> lessons;
+  std::vector<TrainingPlan> trainings;
   while (!fields.empty()) {
-    LessonPlan& plan = lessons.emplace_back();
-    plan.taught = fields.get_values<std::uint32_t>();
-    plan.judged = fields.get_values<std::uint32_t>();
+    TrainingPlan& plan = trainings.emplace_back();
+    plan.train = fields.get_values<std::uint32_t>();
+    plan.held_out = fields.get_values<std::uint32_t>();
   }
-  return judges_work(std::make_shared<Lessons>(kept.table, kept.gram, settings, std::move(lessons)));
+  return judges_work(std::make_shared<Trainings>(kept.table, kept.gram, settings, std::move(trainings)));
 }
 
 }  // namespace spincat

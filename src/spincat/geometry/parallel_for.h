@@ -51,7 +51,7 @@ class FirstFailure {
 // throws, those of larger indices are no longer started, and the exception of the smallest index that throws is
 // rethrown here: the same one for any number of threads.
 template <class Body>
-void share_out(std::size_t count, int threads, const Body& body) {
+void parallel_for(std::size_t count, int threads, const Body& body) {
   FirstFailure failure(count);
 #ifdef __SANITIZE_THREAD__
   // A thread sanitizer does not see the barriers of GCC's OpenMP, and takes what they order for races.

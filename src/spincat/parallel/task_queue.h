@@ -11,14 +11,14 @@
 namespace spincat {
 
 // Hands out tasks in their order, to ranks that may be lost. Knows neither ranks' messages nor results.
-class TaskBoard {
+class TaskQueue {
  public:
   using Time = std::chrono::steady_clock::time_point;
   using Seconds = std::chrono::duration<double>;
 
   // Of `tasks` tasks, at most `window` are handed out ahead of the first that was not delivered: so bounds the results
   // that wait for their turn.
-  TaskBoard(std::size_t tasks, std::size_t window);
+  TaskQueue(std::size_t tasks, std::size_t window);
 
   void set_window(std::size_t window) { window_ = window; }
   bool all_delivered() const { return delivered_ == done_.size(); }

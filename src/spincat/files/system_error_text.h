@@ -8,7 +8,7 @@
 namespace spincat {
 
 // What an errno value means, in the lower case of our one-line messages.
-inline std::string in_words(int error) {
+inline std::string system_error_text(int error) {
   if (error == ENOENT) return "no such file";
   std::string text = std::generic_category().message(error);
   // "Permission denied", but not "I/O error"

@@ -1,4 +1,4 @@
-// Private to the library, not installed: what ranks do for a teacher, and what they keep for it.
+// Private to the library, not installed: what ranks do for a trainer, and what they keep for it.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 #include "spincat/parallel/packing.h"
 #include "spincat/parallel/task.h"
 #include "spincat/train/feature_table.h"
-#include "spincat/train/lessons.h"
+#include "spincat/train/trainings.h"
 
 namespace spincat {
 
@@ -29,21 +29,21 @@ struct RankState {
   std::optional<TableRows> rows;  // of objects that were described, until they are a table
   std::uint64_t shared_as = 0;    // what the table was shared as; 0: there is none
   FeatureTable table;
-  SharedGram gram;             // of the table, strip by strip
-  std::vector<bool> no_strip;  // by gram_tasks(): not there yet
+  GramMatrices gram;                 // of the table, strip by strip
+  std::vector<bool> missing_strips;  // by gram_tasks(): not there yet
 };
 
-// Kept by the others, to teach on it by other settings, too, each time under another number: of objects only their
+// Kept by the others, to train on it by other settings, too, each time under another number: of objects only their
 // categories, and the features only where ranks do not have them.
 void pack_table(const FeatureTable& table, std::uint64_t shared_as, Packer& packer);
 
 // By which a rank knows whether it keeps what it should: it may have missed something.
-struct Expected {
+struct TableTicket {
   std::uint64_t shared_as = 0;
   std::uint32_t matrices = 0;  // of inner products
 };
 
-// One strip of one of the matrices of a SharedGram.
+// One strip of one of the matrices of a GramMatrices.
 struct GramTask {
   std::uint32_t matrix = 0;
   std::uint32_t strip = 0;
@@ -53,34 +53,35 @@ struct GramTask {
 std::vector<GramTask> gram_tasks(const FeatureTable& table, KernelKind kind);
 std::string pack(const GramTask& task);
 // All of the table's, still to be filled.
-SharedGram unfilled_gram(const FeatureTable& table, KernelKind kind);
+GramMatrices unfilled_gram(const FeatureTable& table, KernelKind kind);
 // Puts the result of such a task into it.
-void put_strip(const GramTask& task, std::string_view result, SharedGram& gram);
+void put_strip(const GramTask& task, std::string_view result, GramMatrices& gram);
 Work gram_work(const FeatureTable& table, KernelKind kind);
 
-// Some judges of one of the lessons.
+// Some judges of one of the trainings.
 struct JudgesTask {
-  std::uint32_t lesson = 0;
+  std::uint32_t training = 0;
   std::uint32_t first = 0;  // of all pairs
   std::uint32_t last = 0;
 };
 
-std::vector<JudgesTask> judges_tasks(const FeatureTable& table, KernelKind kind, std::span<const LessonPlan> lessons);
+std::vector<JudgesTask> judges_tasks(const FeatureTable& table, KernelKind kind,
+                                     std::span<const TrainingPlan> trainings);
 std::string pack(const JudgesTask& task);
-// Of a lesson that folds: puts the judges into `list`, from judge `first` on.
+// Of a training that folds: puts the judges into `list`, from judge `first` on.
 void put_folded(std::string_view result, std::uint32_t first, JudgeList& list);
 // Of one that does not.
 std::vector<Judge> unpack_judges(std::string_view result);
 // Margins of the judged objects: a row for each of `objects` (or of their views), a column for each judge of the task.
 FeatureMatrix unpack_margins(std::string_view result, std::size_t objects);
-void pack_lessons(const Expected& expected, const JudgeSettings& settings, std::span<const LessonPlan> lessons,
-                  Packer& packer);
-Work judges_work(std::shared_ptr<Lessons> lessons);
+void pack_trainings(const TableTicket& expected, const JudgeSettings& settings, std::span<const TrainingPlan> trainings,
+                    Packer& packer);
+Work judges_work(std::shared_ptr<Trainings> trainings);
 
 // For a context.
-void pack_expected(const Expected& expected, Packer& packer);
+void pack_ticket(const TableTicket& expected, Packer& packer);
 // What the rank keeps. Throws RunError when that is not what is expected: it could not keep it.
-const RankState& expected_of(Unpacker& fields, const RankState& kept);
+const RankState& check_ticket(Unpacker& fields, const RankState& kept);
 
 // The same works on other ranks, from what they keep.
 Work make_table_work(std::string_view context, RankState& kept);

@@ -1,4 +1,4 @@
-#include "spincat/train/lesson.h"
+#include "spincat/train/training.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -43,7 +43,7 @@ bool may_share_gram(Eigen::Index rows, Eigen::Index matrices) {
   return rows * rows <= kMostSharedProducts / matrices;
 }
 
-Lesson::Lesson(const FeatureTable& table, const SharedGram& gram, std::span<const std::uint32_t> objects,
+Training::Training(const FeatureTable& table, const GramMatrices& gram, std::span<const std::uint32_t> objects,
                const JudgeSettings& settings)
     : table_(table), has_gram_(!gram.empty()), settings_(settings) {
   const std::vector<std::uint32_t> rows = table.rows_of(objects);
@@ -55,8 +55,8 @@ Lesson::Lesson(const FeatureTable& table, const SharedGram& gram, std::span<cons
                     table.row_labels(), rows, static_cast<std::uint32_t>(table.categories.size()));
 }
 
-// No products shared with other lessons: each has a codebook, and so features, of its own.
-const FeatureMatrix& Lesson::learn_words(std::span<const std::uint32_t> rows) {
+// No products shared with other trainings: each has a codebook, and so features, of its own.
+const FeatureMatrix& Training::learn_words(std::span<const std::uint32_t> rows) {
   const std::uint64_t seed = derive_seed(table_.seed, kCodebookPurpose);
   codebook_ = learn_codebook(codebook_samples(table_, rows), table_.words, seed, 1);
   counted_ = counted_rows(table_, codebook_, rows);
@@ -67,28 +67,28 @@ const FeatureMatrix& Lesson::learn_words(std::span<const std::uint32_t> rows) {
   return counted_;
 }
 
-std::vector<Judge> Lesson::teach(std::span<const CategoryPair> pairs) const {
+std::vector<Judge> Training::train(std::span<const CategoryPair> pairs) const {
   std::vector<Judge> judges;
   judges.reserve(pairs.size());
   for (const CategoryPair pair : pairs) {
-    judges.push_back(training_->teach(pair, settings_));
+    judges.push_back(training_->train(pair, settings_));
   }
   return judges;
 }
 
-JudgeList Lesson::unfilled_list(std::size_t judges) const {
+JudgeList Training::unfilled_list(std::size_t judges) const {
   JudgeList list = training_->unfilled_list(judges);
   list.codebook = codebook_;
   return list;
 }
 
-JudgeList Lesson::list(std::span<const Judge> judges) const {
+JudgeList Training::list(std::span<const Judge> judges) const {
   JudgeList list = training_->list(judges);
   list.codebook = codebook_;
   return list;
 }
 
-FeatureMatrix Lesson::margins(std::span<const Judge> judges, std::span<const std::uint32_t> objects) const {
+FeatureMatrix Training::margins(std::span<const Judge> judges, std::span<const std::uint32_t> objects) const {
   if (has_gram_) {
     std::vector<std::uint32_t> rows;
     for (const std::uint32_t object : objects) {

@@ -1,0 +1,140 @@
+#include "spincat/train/judge_trainer.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "spincat/train/broadcast_id.h"
+#include "spincat/train/calibration_folds.h"
+#include "spincat/train/train_tasks.h"
+#include "spincat/train/training.h"
+
+namespace spincat {
+namespace {
+
+// The judges of the first training, as they come, in their order. Other ranks are at work before it is made here.
+class JudgeCollector {
+ public:
+  JudgeCollector(Trainings& trainings, std::size_t categories)
+      : trainings_(trainings), pairs_(categories * (categories - 1) / 2) {}
+
+  void add(const JudgesTask& task, std::string_view result) {
+    if (!training().folds()) {
+      std::ranges::move(unpack_judges(result), std::back_inserter(judges_));
+      return;
+    }
+    if (!list_) {
+      list_ = training().unfilled_list(pairs_);
+    }
+    put_folded(result, task.first, *list_);
+  }
+
+  JudgeList take() { return list_ ? *std::move(list_) : training().list(judges_); }
+
+ private:
+  const Training& training() { return trainings_.training(0); }
+
+  Trainings& trainings_;
+  std::size_t pairs_;
+  std::optional<JudgeList> list_;  // where the training folds
+  std::vector<Judge> judges_;      // where it does not
+};
+
+TaskFarm::Tick telling(const Progress& progress, const char* stage, std::size_t tasks) {
+  return [&progress, stage, tasks](std::size_t done) {
+    if (progress) {
+      progress(stage, done, tasks);
+    }
+  };
+}
+
+}  // namespace
+
+JudgeTrainer::JudgeTrainer(const FeatureTable& table, const JudgeSettings& settings, TaskFarm& farm,
+                           std::size_t trainings, const Progress& progress)
+    : table_(table), settings_(settings), farm_(&farm) {
+  const TableSize size{table.objects.size(), static_cast<std::size_t>(table.features.rows()),
+                       static_cast<std::size_t>(table.features.cols()), table.categories.size()};
+  if (farm.ranks() > 1 && (!table.described_as.empty() || worth_broadcasting(size, trainings, farm))) {
+    shared_as_ = next_broadcast_id();
+    farm.share(kTableTasks, [&](Packer& packer) { pack_table(table, shared_as_, packer); });
+  }
+  const std::size_t matrices = gram_columns(settings.kernel, table.blocks, table.features.cols()).size();
+  if (table.local_size == 0 && may_share_gram(table.features.rows(), static_cast<Eigen::Index>(matrices))) {
+    compute_gram(progress);
+  }
+}
+
+JudgeTrainer::JudgeTrainer(const FeatureTable& table, const GramMatrices& gram, const JudgeSettings& settings,
+                           int threads)
+    : table_(table), settings_(settings), own_(std::in_place, threads), farm_(&own_->farm()), gram_(&gram) {}
+
+TableTicket JudgeTrainer::expected() const {
+  return {shared_as_, static_cast<std::uint32_t>(gram_->blocks.size())};
+}
+
+void JudgeTrainer::compute_gram(const Progress& progress) {
+  const std::vector<GramTask> tasks = gram_tasks(table_, settings_.kernel);
+  own_gram_ = unfilled_gram(table_, settings_.kernel);
+  Job job;
+  job.kind = kGramTasks;
+  job.in_journal = false;
+  job.stays_here = !is_shared();
+  job.context = [&](Packer& packer) {
+    pack_ticket({shared_as_, 0}, packer);
+    packer.add(settings_.kernel);
+  };
+  job.work = gram_work(table_, settings_.kernel);
+  job.tasks = tasks.size();
+  job.task = [&](std::size_t i) { return pack(tasks[i]); };
+  job.deliver = [&](std::size_t i, const std::string& result) { put_strip(tasks[i], result, own_gram_); };
+  job.tells_all = [](std::string_view) { return true; };  // all ranks train with them
+  farm_->run(job, telling(progress, "comparing objects", tasks.size()));
+}
+
+JudgeList JudgeTrainer::train(std::span<const std::uint32_t> objects, const Progress& progress) {
+  const std::vector<TrainingPlan> trainings = {{{objects.begin(), objects.end()}, {}}};
+  return do_trainings(trainings, progress).judges;
+}
+
+CalibratedJudges JudgeTrainer::train_calibrated(std::span<const std::uint32_t> objects, std::uint64_t seed,
+                                                const Progress& progress) {
+  std::vector<TrainingPlan> trainings = {{{objects.begin(), objects.end()}, {}}};
+  std::ranges::move(calibration_folds(table_, objects, seed), std::back_inserter(trainings));
+  return do_trainings(trainings, progress);
+}
+
+// The first training's judges are wanted, of the others their margins. All are one job: so nobody waits between them.
+CalibratedJudges JudgeTrainer::do_trainings(std::span<const TrainingPlan> trainings, const Progress& progress) {
+  const std::vector<JudgesTask> tasks = judges_tasks(table_, settings_.kernel, trainings);
+  const auto made = std::make_shared<Trainings>(table_, *gram_, settings_,
+                                                std::vector<TrainingPlan>(trainings.begin(), trainings.end()));
+  JudgeCollector judges(*made, table_.categories.size());
+  FoldCounter folds(table_);
+  Job job;
+  job.kind = kJudgesTasks;
+  job.in_journal = false;
+  job.stays_here = !is_shared();
+  job.context = [&](Packer& packer) { pack_trainings(expected(), settings_, trainings, packer); };
+  job.work = judges_work(made);
+  job.tasks = tasks.size();
+  job.task = [&](std::size_t i) { return pack(tasks[i]); };
+  job.deliver = [&](std::size_t i, const std::string& result) {
+    const TrainingPlan& plan = trainings[tasks[i].training];
+    if (plan.held_out.empty()) {
+      judges.add(tasks[i], result);
+    } else {
+      const bool is_last = i + 1 == tasks.size() || tasks[i + 1].training != tasks[i].training;
+      folds.add(plan, tasks[i], result, is_last);
+    }
+  };
+  farm_->run(job, telling(progress, "training judges", tasks.size()));
+  return {judges.take(), folds.calibration()};
+}
+
+}  // namespace spincat

@@ -25,7 +25,8 @@ void make_empty_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error || !fs::is_directory(folder, error)) {
-    throw InputError(folder.string(), "cannot be made a folder" + (error ? ": " + system_error_text(error.value()) : ""));
+    throw InputError(folder.string(),
+                     "cannot be made a folder" + (error ? ": " + system_error_text(error.value()) : ""));
   }
   const bool is_empty = fs::is_empty(folder, error);
   if (error) {

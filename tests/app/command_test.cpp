@@ -537,9 +537,10 @@ TEST_F(Command, ViewsAreTaughtAndMeasuredAndClassifySaysWhatAMeshIsToThem) {
   EXPECT_EQ(run("train shapes -o views.spincat" + small).code, 0);
   const Result named = run("classify views.spincat 'new box.off' new-cone.off");
   EXPECT_EQ(named.code, 0);
-  EXPECT_EQ(named.err,
-            "spincat: new box.off: is a mesh, but the judges were trained by views: they see one view of it (1 more are "
-            "of such a kind)\n");
+  EXPECT_EQ(
+      named.err,
+      "spincat: new box.off: is a mesh, but the judges were trained by views: they see one view of it (1 more are "
+      "of such a kind)\n");
   EXPECT_EQ(run("classify views.spincat new-cone.off --quiet").err, "");
   const Json measured = Json::parse(run("evaluate shapes --splits 2 --json" + small).out);
   ASSERT_EQ(measured.at("views").size(), 3U);

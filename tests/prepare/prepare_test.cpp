@@ -156,7 +156,10 @@ TEST_P(PrepareSurface, OfWhatHasNoExtentIsRefused) {
   EXPECT_EQ(input_error([&] { prepare(PointCloud{same, {}, {}}, settings, 1); }), "all its points are at one place");
   EXPECT_EQ(input_error([&] { prepare(Mesh{same, {{0, 1, 2}}}, settings, 1); }), "all its points are at one place");
   EXPECT_EQ(input_error([&] { prepare(Mesh{same, {}}, settings, 1); }), "all its points are at one place");
-  EXPECT_EQ(input_error([&] { prepare(PointCloud{{{1, 2, 3}}, {}, {}}, settings, 1); }), "all its points are at one place");
+  EXPECT_EQ(input_error([&] {
+              prepare(PointCloud{{{1, 2, 3}}, {}, {}}, settings, 1);
+            }),
+            "all its points are at one place");
   EXPECT_EQ(input_error([&] { prepare(PointCloud{}, settings, 1); }), "holds no points");
   EXPECT_EQ(input_error([&] { prepare(Mesh{}, settings, 1); }), "holds no points");
 }

@@ -53,7 +53,8 @@ TEST(CloudResolution, OfFewerThanTwoPointsIsZero) {
 }
 
 TEST(ObjectResolution, IsThatOfTheMeshOrOfTheDistinctPoints) {
-  EXPECT_DOUBLE_EQ(object_resolution(test::box(1, 2, 2)), 2.0);  // 4 edges of 1, 8 of 2, 4 diagonals sqrt 5, 2 of sqrt 8
+  EXPECT_DOUBLE_EQ(object_resolution(test::box(1, 2, 2)),
+                   2.0);  // 4 edges of 1, 8 of 2, 4 diagonals sqrt 5, 2 of sqrt 8
   EXPECT_DOUBLE_EQ(object_resolution(PointCloud{{{0, 0, 0}, {10, 0, 0}, {30, 0, 0}, {0, 0, 0}}, {}, {}}), 10.0);
   // Without area: the cloud of its vertices.
   EXPECT_DOUBLE_EQ(object_resolution(Mesh{{{0, 0, 0}, {1, 0, 0}, {3, 0, 0}}, {{0, 1, 2}}}), 1.0);

@@ -153,7 +153,8 @@ TEST_F(Views, EvaluationTellsOfClouds) {
   EvaluateOptions options;
   options.splits = 1;
   options.test.form = TestForm::cloud;
-  EXPECT_NE(evaluate(shapes(), test::tiny_settings(), options).kind_mismatch.find("is a point cloud"), std::string::npos);
+  EXPECT_NE(evaluate(shapes(), test::tiny_settings(), options).kind_mismatch.find("is a point cloud"),
+            std::string::npos);
   Settings any = test::tiny_settings();
   any.trained_for = TrainedFor::any;
   EXPECT_EQ(evaluate(shapes(), any, options).kind_mismatch, "");

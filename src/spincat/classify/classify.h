@@ -13,9 +13,9 @@
 namespace spincat {
 
 struct Classification {
-  Ballot ballot;            // categories as indices into Model::categories
-  double confidence = 0.0;  // in (0, 1): how likely the winner is right, by the model's calibration
-  std::string kind_mismatch;       // why the judges should not be trusted with this object (kinds.h); mostly empty
+  Ballot ballot;              // categories as indices into Model::categories
+  double confidence = 0.0;    // in (0, 1): how likely the winner is right, by the model's calibration
+  std::string kind_mismatch;  // why the judges should not be trusted with this object (kinds.h); mostly empty
   StageSeconds seconds;
 };
 

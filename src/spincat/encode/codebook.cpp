@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "spincat/geometry/random.h"
 #include "spincat/geometry/parallel_for.h"
+#include "spincat/geometry/random.h"
 
 namespace spincat {
 namespace {
@@ -51,7 +51,7 @@ std::vector<std::uint32_t> nearest_words(const Eigen::Ref<const Rows>& rows, con
     return nearest;
   }
   parallel_for(static_cast<std::size_t>(chunks), threads,
-            [&](std::size_t chunk) { find(static_cast<Eigen::Index>(chunk)); });
+               [&](std::size_t chunk) { find(static_cast<Eigen::Index>(chunk)); });
   return nearest;
 }
 

@@ -25,7 +25,7 @@ class ConcatenatedSums final : public Encoding::ObjectSums {
   }
 
   bool add_contributions(const SpinImageBlock& block, std::span<const double> sums, std::span<const float> weights,
-                  std::span<double> shares) const override {
+                         std::span<double> shares) const override {
     const std::size_t image = block.images.shape().size();
     const std::vector<float> values = finish(sums).values;
     for (std::size_t k = block.first; k < block.first + block.images.count(); ++k) {

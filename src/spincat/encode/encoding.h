@@ -61,7 +61,7 @@ class Encoding::ObjectSums {
   // weights . finish(sums).values. The shares of all images add up to that product. False, and nothing done, where the
   // encoding knows no such shares.
   virtual bool add_contributions(const SpinImageBlock& /*block*/, std::span<const double> /*sums*/,
-                          std::span<const float> /*weights*/, std::span<double> /*shares*/) const {
+                                 std::span<const float> /*weights*/, std::span<double> /*shares*/) const {
     return false;
   }
 

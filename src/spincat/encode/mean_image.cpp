@@ -31,7 +31,7 @@ class MeanImageSums final : public Encoding::ObjectSums {
 
   // A feature is the sum of the images' bins over the length of all sums.
   bool add_contributions(const SpinImageBlock& block, std::span<const double> sums, std::span<const float> weights,
-                  std::span<double> shares) const override {
+                         std::span<double> shares) const override {
     const double length = std::sqrt(std::inner_product(sums.begin(), sums.end(), sums.begin(), 0.0));
     for (std::size_t k = 0; k < block.images.count() && length > 0.0; ++k) {
       const std::span<const float> image = block.images.image(k);

@@ -52,7 +52,7 @@ class PyramidSums final : public Encoding::ObjectSums {
 
   // A mean is the sum of the images' roots r / n, and a deviation s = s^2 / s the sum of their (r - mean)^2 / (n s).
   bool add_contributions(const SpinImageBlock& block, std::span<const double> sums, std::span<const float> weights,
-                  std::span<double> shares) const override {
+                         std::span<double> shares) const override {
     const std::vector<Gives> gives = gives_of(sums, weights);
     Levels levels(shape_.columns);
     for (std::size_t k = 0; k < block.images.count(); ++k) {

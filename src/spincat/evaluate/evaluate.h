@@ -63,7 +63,7 @@ struct ConfidenceMeasure {
   double right_or_wrong = 0.5;    // tested objects named right against those named wrong, of all splits together
   double known_or_unknown = 0.5;  // tested objects against unknown objects, the mean over the splits
   double mean_confidence = 0.0;   // over the tested objects of all splits; close to their overall rate when calibrated
-  std::uint32_t unknown_objects = 0;    // how many could be read, each counted by its views
+  std::uint32_t unknown_objects = 0;  // how many could be read, each counted by its views
 };
 
 // Rates by the number of views of an object over which votes are summed.
@@ -102,7 +102,7 @@ struct Evaluation {
   std::vector<TestedObject> tested;  // all that could be, in the order of the data set: confusion[i][j] is how often
                                      // objects of category i were named j
   std::optional<ConfidenceMeasure> confidence;
-  std::string kind_mismatch;         // why the judges should not be trusted with the tested objects (kinds.h); mostly empty
+  std::string kind_mismatch;  // why the judges should not be trusted with the tested objects (kinds.h); mostly empty
   StageSeconds seconds;       // added up over threads; judge: training and voting
   double wall_seconds = 0.0;  // of everything
 };

@@ -10,8 +10,8 @@
 #include "spincat/evaluate/evaluate.h"
 #include "spincat/judge/kernel.h"
 #include "spincat/parallel/task.h"
-#include "spincat/train/train_tasks.h"
 #include "spincat/train/judge_trainer.h"
+#include "spincat/train/train_tasks.h"
 
 namespace spincat {
 
@@ -31,7 +31,8 @@ struct Trial {
   Confusion confusion;
   std::vector<Confusion> by_views;   // for each of view_counts(): votes summed over so many views of an object
   std::vector<std::uint32_t> named;  // for each of split.test: the category it was given
-  // The confidences, where they are measured: in the tested objects by whether they were named right, and in unknown objects.
+  // The confidences, where they are measured: in the tested objects by whether they were named right, and in unknown
+  // objects.
   std::vector<double> right;
   std::vector<double> wrong;
   std::vector<double> unknown_objects;

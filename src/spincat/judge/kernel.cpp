@@ -84,8 +84,8 @@ std::vector<std::pair<Eigen::Index, Eigen::Index>> gram_columns(KernelKind kind,
   return columns_of(block_sizes);
 }
 
-GramMatrices make_shared_gram(KernelKind kind, std::span<const std::uint32_t> block_sizes, const FeatureMatrix& features,
-                            int threads) {
+GramMatrices make_shared_gram(KernelKind kind, std::span<const std::uint32_t> block_sizes,
+                              const FeatureMatrix& features, int threads) {
   GramMatrices gram;
   for (const auto& [first, count] : gram_columns(kind, block_sizes, features.cols())) {
     gram.blocks.push_back(gram_matrix(features.middleCols(first, count), threads));

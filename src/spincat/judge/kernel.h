@@ -45,11 +45,11 @@ struct GramMatrices {
 std::vector<std::pair<Eigen::Index, Eigen::Index>> gram_columns(KernelKind kind,
                                                                 std::span<const std::uint32_t> block_sizes,
                                                                 Eigen::Index columns);
-GramMatrices make_shared_gram(KernelKind kind, std::span<const std::uint32_t> block_sizes, const FeatureMatrix& features,
-                            int threads);
+GramMatrices make_shared_gram(KernelKind kind, std::span<const std::uint32_t> block_sizes,
+                              const FeatureMatrix& features, int threads);
 
-// K of all pairs of the given rows of `features`; `gram` is a GramMatrices of that kernel's kind for all rows, or empty.
-// Deterministic.
+// K of all pairs of the given rows of `features`; `gram` is a GramMatrices of that kernel's kind for all rows, or
+// empty. Deterministic.
 Eigen::MatrixXf kernel_matrix(const Kernel& kernel, const FeatureMatrix& features, const GramMatrices& gram,
                               std::span<const std::uint32_t> rows);
 

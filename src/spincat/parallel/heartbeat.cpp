@@ -16,7 +16,8 @@ constexpr std::chrono::milliseconds kBetweenBeats(500);
 
 }  // namespace
 
-Heartbeat::Heartbeat(Communicator& ranks) : ranks_(ranks), thread_([this](const std::stop_token& stop) { beat_on(stop); }) {}
+Heartbeat::Heartbeat(Communicator& ranks)
+    : ranks_(ranks), thread_([this](const std::stop_token& stop) { beat_on(stop); }) {}
 
 void Heartbeat::beat_on(const std::stop_token& stop) {
   std::mutex mutex;

@@ -17,8 +17,8 @@ using Work = std::function<std::string(std::string_view task)>;
 struct RankWork {
   RankWork() = default;
   template <class Callable>
-    requires std::convertible_to<Callable, Work>
-  RankWork(Callable its_work) : work(std::move(its_work)) {}  // not explicit: most works keep nothing
+  requires std::convertible_to<Callable, Work> RankWork(Callable its_work)
+      : work(std::move(its_work)) {}  // not explicit: most works keep nothing
 
   Work work;
   // Where later work needs the results: takes this rank's own, and those of the others where the job tells them to all

@@ -15,9 +15,9 @@ double mesh_resolution(const Mesh& mesh);
 // is repeated.
 double cloud_resolution(std::span<const Vec3> points);
 
-// The mesh resolution of an object in the unit of its file: of a mesh with area that of the mesh, of a cloud that of its
-// points, repeated ones counted once, and of a mesh without area that of its vertices. Coordinates of any finite size
-// are fine. Throws InputError (without a file name) when it is 0: the object has no extent.
+// The mesh resolution of an object in the unit of its file: of a mesh with area that of the mesh, of a cloud that of
+// its points, repeated ones counted once, and of a mesh without area that of its vertices. Coordinates of any finite
+// size are fine. Throws InputError (without a file name) when it is 0: the object has no extent.
 double object_resolution(const Object& object);
 
 }  // namespace spincat

@@ -43,11 +43,11 @@ struct Settings {
   int draws = 1;               // every part is the mean over so many draws of points, 1 to 100
   int words = 256;             // of the codebook that the bag-of-features encoding learns, 2 to 65,536
   JudgeSettings judge;
-  int copies = 6;                            // stretched copies of each training object, 0 to 100
+  int copies = 6;                               // stretched copies of each training object, 0 to 100
   TrainedFor trained_for = TrainedFor::meshes;  // any: besides, as many stretched copies turned into clouds
-  int views = 12;                            // of each training object where trained_for says so, 1 to 1,000
-  double stretch = 0.2;                      // each axis of a copy is stretched by exp(U(-stretch, stretch)), 0 to 2
-  std::uint64_t seed = 1;                    // of every random choice
+  int views = 12;                               // of each training object where trained_for says so, 1 to 1,000
+  double stretch = 0.2;                         // each axis of a copy is stretched by exp(U(-stretch, stretch)), 0 to 2
+  std::uint64_t seed = 1;                       // of every random choice
 
   // How many parts a feature vector has, all of one length.
   int parts() const { return 1 + (plain_samples ? 1 : 0) + (up != UpAxis::none ? 1 : 0); }

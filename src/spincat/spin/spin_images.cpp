@@ -13,8 +13,8 @@ namespace {
 
 using Blocks = std::vector<SpinImageBlock>;
 
-// How many blocks are made together: the more, the better their spin points can be put in spatial order; but each of the
-// threads that share them out must find some, and memory is bounded. This decides about nothing but speed.
+// How many blocks are made together: the more, the better their spin points can be put in spatial order; but each of
+// the threads that share them out must find some, and memory is bounded. This decides about nothing but speed.
 std::size_t blocks_together(std::size_t blocks, const SpinImageShape& shape, std::size_t sharing_threads) {
   constexpr std::size_t kMostBytes = std::size_t{16} << 20;
   constexpr std::size_t kMostBlocks = 256;

@@ -17,7 +17,7 @@ inline constexpr int kCalibrationFolds = 5;
 // The folds of a calibration on some objects; none for fewer objects than folds. A category's only object is trained on
 // in all of them. Deterministic.
 std::vector<TrainingPlan> calibration_folds(const FeatureTable& table, std::span<const std::uint32_t> objects,
-                                          std::uint64_t seed);
+                                            std::uint64_t seed);
 
 // What the judges of the folds say, as it comes in, in the order of the tasks.
 class FoldCounter {

@@ -44,7 +44,7 @@ bool may_share_gram(Eigen::Index rows, Eigen::Index matrices) {
 }
 
 Training::Training(const FeatureTable& table, const GramMatrices& gram, std::span<const std::uint32_t> objects,
-               const JudgeSettings& settings)
+                   const JudgeSettings& settings)
     : table_(table), has_gram_(!gram.empty()), settings_(settings) {
   const std::vector<std::uint32_t> rows = table.rows_of(objects);
   const bool local = table.local_size > 0;

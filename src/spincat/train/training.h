@@ -24,7 +24,7 @@ class Training {
   // `gram` is that of the whole table or empty. What is passed by reference must outlive this object.
   // Precondition: every category has an object among them.
   Training(const FeatureTable& table, const GramMatrices& gram, std::span<const std::uint32_t> objects,
-         const JudgeSettings& settings);
+           const JudgeSettings& settings);
   Training(const Training&) = delete;
   Training& operator=(const Training&) = delete;
 

@@ -35,6 +35,7 @@ packages_demo=(
 
 packages_test=(
   libgtest-dev
+  clang-format-14  # whether the sources are formatted
   libfreenect-dev  # a Kinect's recording played back
   libopenmpi-dev openmpi-bin pkgconf libmpich-dev mpich  # the command under both makes of MPI
   openssh-server openssh-client iproute2                 # several hosts, as network namespaces

@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-#include "command/on_terminal.h"
+#include "app/on_terminal.h"
 #include "spincat/camera/render/sensor_noise.h"
 #include "spincat/camera/source/calibration.h"
 #include "spincat/camera/source/depth_png.h"

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include "command/on_terminal.h"
+#include "app/on_terminal.h"
 #include "spincat/report/text_table.h"
 #include "support/shapes.h"
 #include "support/temp_dir.h"

@@ -9,7 +9,7 @@ target_compile_features(spincat_compiler INTERFACE cxx_std_20)
 target_compile_options(spincat_compiler INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
   # Same bytes on every machine: no fused multiply-add unless the code asks for it. The other two cost nothing in
-  # exactness (nobody here reads errno or floating-point traps) and let plain loops be vectorised: docs/performance.md.
+  # exactness (nobody here reads errno or floating-point traps) and let plain loops be vectorised.
   -ffp-contract=off -fno-math-errno -fno-trapping-math
   $<$<BOOL:${SPINCAT_WERROR}>:-Werror>
   $<$<BOOL:${SPINCAT_ASSERTS}>:-UNDEBUG>
@@ -28,7 +28,7 @@ endif()
 
 # What users run defends itself: an overwritten stack or a call into the middle of code ends the process, copies are
 # checked against the size of what they go to, tables of addresses are read-only, code lies at random addresses.
-# docs/reliability.md has the cost, tests/hardening the check.
+# docs/results/reliability.md has the cost, tests/hardening the check.
 if(SPINCAT_HARDEN AND NOT SPINCAT_SANITIZE)
   include(CheckCXXCompilerFlag)
   foreach(flag -fstack-protector-strong -fstack-clash-protection -fcf-protection)

@@ -1,4 +1,5 @@
-# Every library comes from Debian 12 packages (scripts/setup lists them); docs/dependencies.md says why each was chosen.
+# Every library comes from Debian 12 packages (scripts/setup lists them).
+# docs/how-it-works/dependencies.md says why each was chosen.
 
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(nanoflann REQUIRED)

@@ -37,7 +37,7 @@ function chart(study) {
   return el('div', {}, picture, el('p', { class: 'soft small' }, key('rgb(var(--wrong))', 'measured'), ' ', key('rgb(var(--right))', 'the formula'), ' ', key('var(--soft)', 'as many times as workers')));
 }
 
-// The formula of docs/scaling.md with the numbers that were found; terms that the fit left out are not there.
+// The formula of docs/results/scaling.md with the numbers that were found; terms that the fit left out are not there.
 function formula(model) {
   const number = (value) => Number(value.toPrecision(3));
   const terms = [[model.constant, ' s'], [model.per_unit, ' s N'], [model.per_work, ' s W / p'], [model.per_teaching, ' s V / p'],
@@ -50,7 +50,7 @@ function study(each) {
   const one = each.predicted[0][2];
   return card(each.name, 'Of the largest problem measured, ' + each.problem + '.', chart(each),
     el('pre', { class: 'formula' }, formula(each.model)),
-    el('p', { class: 'soft small' }, 'p workers in R processes; N is what one process does alone, W the work that is shared out, V that of teaching, sent and returned bytes (docs/scaling.md). ',
+    el('p', { class: 'soft small' }, 'p workers in R processes; N is what one process does alone, W the work that is shared out, V that of teaching, sent and returned bytes (docs/results/scaling.md). ',
       'The formula is off by at most ' + shareText(each.model.largest_error) + ' of a measurement.'),
     el('h3', {}, 'Measured'),
     el('div', { class: 'measured' }, pagedTable([['problem', 'number'], ['processes', 'number'], ['threads each', 'number'], ['time', 'number'], ['times as fast', 'number']], each.samples,

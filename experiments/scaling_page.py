@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes what experiments/scaling measured as a page of the same kind as spincat's reports (docs/reports.md).
+"""Writes what experiments/scaling measured as a page of the same kind as spincat's reports (docs/guide/reports.md).
 
     experiments/scaling_page.py build/scaling.json build/scaling.html
 """

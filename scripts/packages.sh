@@ -1,5 +1,5 @@
 # The Debian 12 packages that spincat needs, by what they are needed for. Sourced by scripts/setup.
-# docs/dependencies.md says why each library was chosen.
+# docs/how-it-works/dependencies.md says why each library was chosen.
 
 packages_build=(
   g++ cmake ninja-build
@@ -20,7 +20,7 @@ packages_build=(
 )
 
 packages_mpi=(
-  libopenmpi-dev openmpi-bin  # many processes: mpirun, srun --mpi=pmix (docs/cluster.md)
+  libopenmpi-dev openmpi-bin  # many processes: mpirun, srun --mpi=pmix (docs/guide/cluster.md)
   pkgconf                     # finds every MPI that is installed
 )
 

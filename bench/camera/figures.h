@@ -1,4 +1,4 @@
-// What docs/camera.md tells in numbers, one function a table.
+// What docs/results/accuracy.md tells in numbers, one function a table.
 #pragma once
 
 #include <cstdint>

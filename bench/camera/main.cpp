@@ -1,4 +1,4 @@
-// spincat_camera_figures: the numbers of docs/camera.md, as JSON; experiments/camera-figures calls it.
+// spincat_camera_figures: the numbers of docs/results/accuracy.md, as JSON; experiments/camera-figures calls it.
 #include <malloc.h>
 
 #include <CLI/CLI.hpp>

@@ -1,5 +1,5 @@
-// Guards against a fall of the rates that docs/encoding.md is about: on generated furniture always, on the Princeton
-// Shape Benchmark's where SPINCAT_PSB names a folder that has it.
+// Guards against a fall of the rates that docs/how-it-works/encoding.md is about: on generated furniture always, on the
+// Princeton Shape Benchmark's where SPINCAT_PSB names a folder that has it.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -103,7 +103,7 @@ if inside timeout -k 1 60 srun --mpi=none --overcommit -n 2 "$spincat" "${argume
 fi
 grep -q "srun has started 2 processes, but there is no MPI for it" "$work/none.err" || fail "srun --mpi=none: no advice"
 
-# The job script of docs/cluster.md.
+# The job script of docs/guide/cluster.md.
 cat >"$work/job.sh" <<JOB
 #!/bin/sh
 #SBATCH --ntasks=2 --overcommit --output=$work/job.log

@@ -119,7 +119,7 @@ void OutputFile::write_all(std::string_view bytes) {
 }
 
 // Results are flushed to the disk anyway, and taking memory for the cache may take longer than the disk itself
-// (docs/performance.md). Returns how many bytes it has written: those before the first place that the disk can begin
+// (docs/results/speed.md). Returns how many bytes it has written: those before the first place that the disk can begin
 // at, which go the usual way, and whole pieces. What is left is the caller's; all of it where the file system cannot.
 std::size_t OutputFile::write_past_cache(std::string_view bytes) {
   const std::size_t before = (kSector - written_ % kSector) % kSector;

@@ -117,7 +117,7 @@ double weight_of_familiarity(std::span<const JudgedObject> votes, std::span<cons
   all.insert(all.end(), unknown_objects.begin(), unknown_objects.end());
   const Eigen::Vector3d x = minimum_of(Loss(all));
   constexpr double kLeastSlope = 1e-6;
-  constexpr double kLeastWeight = 1.0;  // docs/accuracy.md says what was measured for it
+  constexpr double kLeastWeight = 1.0;  // docs/how-it-works/confidence.md says what was measured for it
   return x[0] > kLeastSlope && x[2] > 0.0 ? std::max(kLeastWeight, x[2] / x[0]) : 0.0;
 }
 

@@ -33,8 +33,8 @@ struct CameraSummary {
   double wall_seconds = 0.0;
 };
 
-// One line without its end. Keys: docs/json.md. The same frames give the same text, but for "milliseconds" and
-// "dropped".
+// One line without its end. Keys: docs/reference/json.md. The same frames give the same text, but for "milliseconds"
+// and "dropped".
 std::string frame_json(const FrameFacts& facts, const SeenFrame& frame, const std::vector<std::string>& categories);
 std::string frame_error_json(std::size_t number, const std::string& error);
 std::string summary_json(const CameraSummary& summary);

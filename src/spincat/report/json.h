@@ -1,4 +1,4 @@
-// Results as JSON for programs; the keys are a promise (docs/json.md).
+// Results as JSON for programs; the keys are a promise (docs/reference/json.md).
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ std::string classification_json(const std::string& file, const Classification& c
 std::string error_json(const std::string& file, const std::string& error);
 
 // The rates with their intervals, the confusion matrix, and all that is needed to repeat the run; `command` is the
-// command line, word by word. Keys: docs/json.md.
+// command line, word by word. Keys: docs/reference/json.md.
 std::string evaluation_json(const Evaluation& evaluation, const Settings& settings, const EvaluateOptions& options,
                             const std::vector<std::string>& command);
 

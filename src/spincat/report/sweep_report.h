@@ -13,7 +13,7 @@ namespace spincat {
 // columns, of all stages together).
 std::string sweep_text(const Sweep& sweep, std::size_t width);
 
-// One object in one line; keys: docs/json.md.
+// One object in one line; keys: docs/reference/json.md.
 std::string sweep_json(const Sweep& sweep, const Settings& settings, const EvaluateOptions& options,
                        const std::vector<std::string>& command);
 

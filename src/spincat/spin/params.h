@@ -5,7 +5,7 @@
 
 namespace spincat {
 
-// How a pair of points becomes a place in the image; docs/spin-images.md has the exact formulas of both.
+// How a pair of points becomes a place in the image; docs/how-it-works/spin-images.md has the exact formulas of both.
 enum class SpinConvention {
   johnson,  // Johnson's: W x W, rows fall with beta, columns grow with alpha, signed support angle
   pcl,      // as pcl::SpinImageEstimation 1.13 does it: (W + 1) x (2 W + 1), rows grow with alpha, normalised

@@ -11,9 +11,9 @@
 
 namespace spincat {
 
-// Makes spin images as docs/spin-images.md defines them. The same bytes come out on every SIMD path and however the
-// spin points and the surface are shared out to threads or machines. Const functions may be called by several threads
-// at once.
+// Makes spin images as docs/how-it-works/spin-images.md defines them. The same bytes come out on every SIMD path and
+// however the spin points and the surface are shared out to threads or machines. Const functions may be called by
+// several threads at once.
 //
 //   const SpinImageMaker maker(surface, params);
 //   maker.make(spin_points, 0, images);  // room for 64 images: those of spin points 0 to 63

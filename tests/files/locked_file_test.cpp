@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "io/system_calls.h"
+#include "files/system_calls.h"
 #include "spincat/error.h"
 #include "spincat/files/file.h"
 #include "support/expect_error.h"

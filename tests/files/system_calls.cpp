@@ -1,4 +1,4 @@
-#include "io/system_calls.h"
+#include "files/system_calls.h"
 
 #include <dlfcn.h>
 #include <stdio.h>

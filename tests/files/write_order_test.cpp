@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/system_calls.h"
+#include "files/system_calls.h"
 #include "spincat/error.h"
 #include "spincat/files/file.h"
 #include "spincat/files/file_descriptor.h"

@@ -9,7 +9,9 @@ class FileDescriptor {
  public:
   explicit FileDescriptor(int number) : number_(number) {}
   ~FileDescriptor() {
-    if (number_ >= 0) ::close(number_);
+    if (number_ >= 0) {
+      ::close(number_);
+    }
   }
   FileDescriptor(const FileDescriptor&) = delete;
   FileDescriptor& operator=(const FileDescriptor&) = delete;

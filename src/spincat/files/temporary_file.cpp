@@ -28,7 +28,9 @@ std::string prefix() {
   static_cast<void>(::gethostname(host.data(), host.size() - 1));
   std::string name = host.data();
   for (char& c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.') c = '_';
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.') {
+      c = '_';
+    }
   }
   return fmt::format(".spincat-{}-", name);
 }
@@ -44,7 +46,9 @@ bool is_named(int descriptor, const fs::path& name) {
 // With the lock in hand nobody else removes the file, and its writer is gone.
 void remove_if_left(const fs::path& name) {
   const FileDescriptor file(::open(name.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
-  if (file.valid() && lock(file.number(), LOCK_EX | LOCK_NB) && is_named(file.number(), name)) ::unlink(name.c_str());
+  if (file.valid() && lock(file.number(), LOCK_EX | LOCK_NB) && is_named(file.number(), name)) {
+    ::unlink(name.c_str());
+  }
 }
 
 bool is_first_visit(const fs::path& folder) {
@@ -63,12 +67,16 @@ int create_temporary(const fs::path& folder, fs::path& name) {
     name = folder / fmt::format("{}{}-{}.tmp", begin, ::getpid(), counter++);
     const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0) {
-      if (errno != EEXIST) return -1;
+      if (errno != EEXIST) {
+        return -1;
+      }
       continue;
     }
     // A file system without locks says so here and to whoever cleans up, who then leaves the file alone.
     static_cast<void>(lock(descriptor, LOCK_EX));
-    if (is_named(descriptor, name)) return descriptor;
+    if (is_named(descriptor, name)) {
+      return descriptor;
+    }
     ::close(descriptor);  // taken for a leftover before it was locked
   }
   return -1;
@@ -76,11 +84,15 @@ int create_temporary(const fs::path& folder, fs::path& name) {
 
 void remove_leftovers(const fs::path& folder) {
   std::error_code error;
-  if (!is_first_visit(fs::absolute(folder, error))) return;
+  if (!is_first_visit(fs::absolute(folder, error))) {
+    return;
+  }
   const std::string begin = prefix();
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    if (name.starts_with(begin) && name.ends_with(".tmp")) remove_if_left(entry->path());
+    if (name.starts_with(begin) && name.ends_with(".tmp")) {
+      remove_if_left(entry->path());
+    }
   }
 }
 

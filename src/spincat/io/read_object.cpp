@@ -51,8 +51,11 @@ constexpr std::array formats{
 
 std::string lower_extension(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') {
+      c = static_cast<char>(c - 'A' + 'a');
+    }
+  }
   return extension;
 }
 
@@ -70,9 +73,13 @@ const Format* format_of(const std::filesystem::path& file) {
 [[noreturn]] void fail_as_unknown(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) throw InputError(system_error_text(error.value()));
+  if (!std::filesystem::exists(status)) {
+    throw InputError(system_error_text(error.value()));
+  }
   // The first bytes only: a file of an unknown kind may be of any size.
-  if (std::filesystem::is_regular_file(status) && read_file(file, kFileMagic.size()) == kFileMagic) fail_as_model();
+  if (std::filesystem::is_regular_file(status) && read_file(file, kFileMagic.size()) == kFileMagic) {
+    fail_as_model();
+  }
   const std::string extension = file.extension().string();
   throw InputError(fmt::format(
       "{}; spincat reads {}",
@@ -82,12 +89,20 @@ const Format* format_of(const std::filesystem::path& file) {
 
 Object read(const std::filesystem::path& file, const ReadLimits& limits) {
   std::error_code error;
-  if (std::filesystem::is_directory(file, error)) throw InputError("is a folder, not an object");
+  if (std::filesystem::is_directory(file, error)) {
+    throw InputError("is a folder, not an object");
+  }
   const Format* format = format_of(file);
-  if (format == nullptr) fail_as_unknown(file);
+  if (format == nullptr) {
+    fail_as_unknown(file);
+  }
   const std::string bytes = read_file(file);
-  if (bytes.empty()) throw InputError("is empty");
-  if (bytes.starts_with(kFileMagic)) fail_as_model();
+  if (bytes.empty()) {
+    throw InputError("is empty");
+  }
+  if (bytes.starts_with(kFileMagic)) {
+    fail_as_model();
+  }
   return format->read(bytes, file.parent_path(), limits);
 }
 
@@ -97,7 +112,9 @@ Object read_object(const std::filesystem::path& file, const ReadLimits& limits) 
   try {
     return read(file, limits);
   } catch (const InputError& error) {
-    if (!error.file().empty()) throw;
+    if (!error.file().empty()) {
+      throw;
+    }
     throw InputError(file.string(), error.problem());
   } catch (const std::bad_alloc&) {
     throw RunError(file.string(), "not enough memory to read it");
@@ -111,7 +128,9 @@ Object read_listed_object(const std::filesystem::path& file, const ReadLimits& l
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   const bool is_other = std::filesystem::exists(status) && !std::filesystem::is_directory(status) &&
                         !std::filesystem::is_regular_file(status);
-  if (is_other) throw InputError(file.string(), "is not a regular file");
+  if (is_other) {
+    throw InputError(file.string(), "is not a regular file");
+  }
   return read_object(file, limits);
 }
 
@@ -123,8 +142,11 @@ bool is_object_file(const std::filesystem::path& file) {
 const std::vector<std::string>& object_extensions() {
   static const std::vector<std::string> extensions = [] {
     std::vector<std::string> list;
-    for (const Format& format : formats)
-      if (format.extension != ".txt") list.emplace_back(format.extension);
+    for (const Format& format : formats) {
+      if (format.extension != ".txt") {
+        list.emplace_back(format.extension);
+      }
+    }
     return list;
   }();
   return extensions;

@@ -28,12 +28,16 @@ constexpr char to_lower(char c) {
 
 // What the number behind an 'e' comes to; the largest there is where it is larger.
 std::int64_t exponent_value(std::string_view text) {
-  constexpr std::int64_t most = std::int64_t{1} << 62;  // more than a file can have digits
+  constexpr std::int64_t kMost = std::int64_t{1} << 62;  // more than a file can have digits
   const bool negative = text.starts_with('-');
-  if (negative || text.starts_with('+')) text.remove_prefix(1);
+  if (negative || text.starts_with('+')) {
+    text.remove_prefix(1);
+  }
   std::int64_t value = 0;
-  if (std::from_chars(text.data(), text.data() + text.size(), value).ec == std::errc::result_out_of_range) value = most;
-  value = std::min(value, most);
+  if (std::from_chars(text.data(), text.data() + text.size(), value).ec == std::errc::result_out_of_range) {
+    value = kMost;
+  }
+  value = std::min(value, kMost);
   return negative ? -value : value;
 }
 
@@ -43,7 +47,9 @@ bool is_tiny(std::string_view number) {
   const std::size_t digits_end = std::min(number.find_first_of("eE"), number.size());
   const std::string_view digits = number.substr(0, digits_end);
   const std::size_t first = digits.find_first_of("123456789");
-  if (first == std::string_view::npos) return true;
+  if (first == std::string_view::npos) {
+    return true;
+  }
   const std::size_t point = std::min(digits.find('.'), digits.size());
   const std::int64_t place = static_cast<std::int64_t>(point) - static_cast<std::int64_t>(first);
   return place + (digits_end < number.size() ? exponent_value(number.substr(digits_end + 1)) : 0) < 0;
@@ -52,11 +58,11 @@ bool is_tiny(std::string_view number) {
 }  // namespace
 
 std::string shown(std::string_view text) {
-  constexpr std::size_t longest = 24;
-  std::string result(text.substr(0, longest));
+  constexpr std::size_t kLongest = 24;
+  std::string result(text.substr(0, kLongest));
   std::replace_if(
       result.begin(), result.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return text.size() > longest ? result + "..." : result;
+  return text.size() > kLongest ? result + "..." : result;
 }
 
 std::string in_quotes(std::string_view text) {
@@ -69,7 +75,9 @@ bool same_word(std::string_view a, std::string_view b) {
 
 TextCursor::TextCursor(std::string_view text, TextStyle style)
     : at_(text.data()), end_(text.data() + text.size()), style_(style) {
-  if (text.starts_with("\xEF\xBB\xBF")) at_ += 3;  // a byte order mark, which some editors put before UTF-8
+  if (text.starts_with("\xEF\xBB\xBF")) {
+    at_ += 3;  // a byte order mark, which some editors put before UTF-8
+  }
 }
 
 bool TextCursor::is_comment(const char* at) const {
@@ -78,10 +86,16 @@ bool TextCursor::is_comment(const char* at) const {
 
 // Goes past a \ with the line end behind it.
 bool TextCursor::take_continuation() {
-  if (!style_.backslash_continues || *at_ != '\\') return false;
+  if (!style_.backslash_continues || *at_ != '\\') {
+    return false;
+  }
   const char* behind = at_ + 1;
-  while (behind != end_ && is_blank(*behind)) ++behind;
-  if (behind == end_ || !is_line_end(*behind)) return false;
+  while (behind != end_ && is_blank(*behind)) {
+    ++behind;
+  }
+  if (behind == end_ || !is_line_end(*behind)) {
+    return false;
+  }
   at_ = behind;
   skip_line_end();
   return true;
@@ -94,7 +108,9 @@ bool TextCursor::word_on_line() {
     } else if (is_line_end(*at_)) {
       return false;
     } else if (is_comment(at_)) {
-      while (at_ != end_ && !is_line_end(*at_)) ++at_;
+      while (at_ != end_ && !is_line_end(*at_)) {
+        ++at_;
+      }
     } else if (!take_continuation()) {
       return true;
     }
@@ -104,7 +120,9 @@ bool TextCursor::word_on_line() {
 
 bool TextCursor::word_follows() {
   while (!word_on_line()) {
-    if (at_ == end_) return false;
+    if (at_ == end_) {
+      return false;
+    }
     skip_line_end();
   }
   return true;
@@ -112,14 +130,20 @@ bool TextCursor::word_follows() {
 
 // Called at a line end.
 void TextCursor::skip_line_end() {
-  if (*at_ == '\r' && end_ - at_ > 1 && at_[1] == '\n') ++at_;
+  if (*at_ == '\r' && end_ - at_ > 1 && at_[1] == '\n') {
+    ++at_;
+  }
   ++at_;
   ++line_;
 }
 
 void TextCursor::skip_line() {
-  while (at_ != end_ && !is_line_end(*at_)) ++at_;
-  if (at_ != end_) skip_line_end();
+  while (at_ != end_ && !is_line_end(*at_)) {
+    ++at_;
+  }
+  if (at_ != end_) {
+    skip_line_end();
+  }
 }
 
 bool TextCursor::at_word_end(const char* at) const {
@@ -128,9 +152,13 @@ bool TextCursor::at_word_end(const char* at) const {
 }
 
 std::string_view TextCursor::peek() {
-  if (!word_on_line()) return {};
+  if (!word_on_line()) {
+    return {};
+  }
   const char* last = at_ + 1;
-  while (!at_word_end(last)) ++last;
+  while (!at_word_end(last)) {
+    ++last;
+  }
   return {at_, static_cast<std::size_t>(last - at_)};
 }
 
@@ -146,14 +174,19 @@ std::string_view TextCursor::rest_of_line() const {
 }
 
 double TextCursor::number(const char* what) {
-  if (!word_on_line()) fail_expecting(what);
+  if (!word_on_line()) {
+    fail_expecting(what);
+  }
   const char* first = *at_ == '+' ? at_ + 1 : at_;  // which from_chars does not take
   double value = 0;
   const auto [last, error] = std::from_chars(first, end_, value);
-  if (error == std::errc::invalid_argument || !at_word_end(last) || (first != at_ && *first == '-'))
+  if (error == std::errc::invalid_argument || !at_word_end(last) || (first != at_ && *first == '-')) {
     fail_expecting(what);
+  }
   if (error == std::errc::result_out_of_range) {
-    if (!is_tiny({at_, static_cast<std::size_t>(last - at_)})) fail(in_quotes(word()) + " is too large for a number");
+    if (!is_tiny({at_, static_cast<std::size_t>(last - at_)})) {
+      fail(in_quotes(word()) + " is too large for a number");
+    }
     value = 0;
   }
   at_ = last;
@@ -171,11 +204,15 @@ double TextCursor::finite_number(const char* what) {
 }
 
 std::int64_t TextCursor::integer(const char* what) {
-  if (!word_on_line()) fail_expecting(what);
+  if (!word_on_line()) {
+    fail_expecting(what);
+  }
   const char* first = *at_ == '+' ? at_ + 1 : at_;
   std::int64_t value = 0;
   const auto [last, error] = std::from_chars(first, end_, value);
-  if (error != std::errc() || !at_word_end(last) || (first != at_ && *first == '-')) fail_expecting(what);
+  if (error != std::errc() || !at_word_end(last) || (first != at_ && *first == '-')) {
+    fail_expecting(what);
+  }
   at_ = last;
   return value;
 }
@@ -195,7 +232,9 @@ void TextCursor::fail(const std::string& problem) const {
 }
 
 void TextCursor::fail_expecting(const char* what) {
-  if (word_on_line()) fail(fmt::format("expected {}, found {}", what, in_quotes(word())));
+  if (word_on_line()) {
+    fail(fmt::format("expected {}, found {}", what, in_quotes(word())));
+  }
   fail(fmt::format("expected {}, but the {} ends here", what, at_ == end_ ? "file" : "line"));
 }
 

@@ -36,8 +36,11 @@ template <typename T>
 T load(const char* at, std::endian order = std::endian::little) {
   char bytes[sizeof(T)];
   std::memcpy(bytes, at, sizeof(T));
-  if (order != std::endian::native)
-    for (std::size_t i = 0; i < sizeof(T) / 2; ++i) std::swap(bytes[i], bytes[sizeof(T) - 1 - i]);
+  if (order != std::endian::native) {
+    for (std::size_t i = 0; i < sizeof(T) / 2; ++i) {
+      std::swap(bytes[i], bytes[sizeof(T) - 1 - i]);
+    }
+  }
   T value;
   std::memcpy(&value, bytes, sizeof(T));
   return value;

@@ -30,8 +30,9 @@ using Transform = Eigen::Matrix4d;
 // The element that an index of the file names; "its node 3 does not exist" where it names none.
 template <typename T>
 const T& element_at(const std::vector<T>& list, int index, const char* what) {
-  if (index < 0 || static_cast<std::size_t>(index) >= list.size())
+  if (index < 0 || static_cast<std::size_t>(index) >= list.size()) {
     throw InputError(fmt::format("its {} {} does not exist ({} do)", what, index, list.size()));
+  }
   return list[static_cast<std::size_t>(index)];
 }
 
@@ -40,13 +41,20 @@ class Values {
  public:
   Values(const tinygltf::Model& model, int index, int type) : index_(index) {
     const tinygltf::Accessor& accessor = element_at(model.accessors, index, "accessor");
-    if (accessor.sparse.isSparse) fail("is sparse, which spincat does not read");
-    if (accessor.bufferView < 0) fail("has no data in the file (it may be compressed)");
-    if (accessor.type != type) fail("holds values of the wrong kind");
+    if (accessor.sparse.isSparse) {
+      fail("is sparse, which spincat does not read");
+    }
+    if (accessor.bufferView < 0) {
+      fail("has no data in the file (it may be compressed)");
+    }
+    if (accessor.type != type) {
+      fail("holds values of the wrong kind");
+    }
     const tinygltf::BufferView& view = element_at(model.bufferViews, accessor.bufferView, "bufferView");
     const std::vector<unsigned char>& buffer = element_at(model.buffers, view.buffer, "buffer").data;
-    if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset)
+    if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset) {
       throw InputError(fmt::format("its bufferView {} reaches beyond its buffer", accessor.bufferView));
+    }
 
     type_ = component_type(accessor.componentType);
     normalized_ = accessor.normalized;
@@ -54,11 +62,14 @@ class Values {
         size_of(type_) *
         static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)));
     stride_ = view.byteStride == 0 ? element_size : view.byteStride;
-    if (stride_ < element_size) fail("has values that overlap");
+    if (stride_ < element_size) {
+      fail("has values that overlap");
+    }
     count_ = accessor.count;
     if (count_ > 0 && (accessor.byteOffset > view.byteLength || element_size > view.byteLength - accessor.byteOffset ||
-                       count_ - 1 > (view.byteLength - accessor.byteOffset - element_size) / stride_))
+                       count_ - 1 > (view.byteLength - accessor.byteOffset - element_size) / stride_)) {
       fail("reaches beyond its bufferView");
+    }
     data_ = reinterpret_cast<const char*>(buffer.data()) + view.byteOffset + (count_ > 0 ? accessor.byteOffset : 0);
   }
 
@@ -71,8 +82,9 @@ class Values {
 
   std::uint32_t index(std::size_t element, std::size_t vertices) const {
     const double index = value(element, 0);
-    if (!(index >= 0 && index < static_cast<double>(vertices)))
+    if (!(index >= 0 && index < static_cast<double>(vertices))) {
       fail(fmt::format("holds the vertex index {}, which is out of range ({} vertices)", index, vertices));
+    }
     return static_cast<std::uint32_t>(index);
   }
 
@@ -125,12 +137,19 @@ class Values {
 };
 
 Transform local_transform(const tinygltf::Node& node) {
-  if (node.matrix.size() == 16) return Eigen::Map<const Transform>(node.matrix.data());  // both by columns
+  if (node.matrix.size() == 16) {
+    return Eigen::Map<const Transform>(node.matrix.data());  // both by columns
+  }
   Eigen::Affine3d transform = Eigen::Affine3d::Identity();
-  if (node.translation.size() == 3) transform.translate(Eigen::Map<const Vec3>(node.translation.data()));
-  if (const auto& r = node.rotation; r.size() == 4)
+  if (node.translation.size() == 3) {
+    transform.translate(Eigen::Map<const Vec3>(node.translation.data()));
+  }
+  if (const auto& r = node.rotation; r.size() == 4) {
     transform.rotate(Eigen::Quaterniond(r[3], r[0], r[1], r[2]).normalized());
-  if (node.scale.size() == 3) transform.scale(Eigen::Map<const Vec3>(node.scale.data()));
+  }
+  if (node.scale.size() == 3) {
+    transform.scale(Eigen::Map<const Vec3>(node.scale.data()));
+  }
   return transform.matrix();
 }
 
@@ -141,9 +160,13 @@ class SceneReader {
 
   Object read() {
     if (model_.nodes.empty()) {
-      for (const tinygltf::Mesh& mesh : model_.meshes) add_mesh(mesh, Transform::Identity());
+      for (const tinygltf::Mesh& mesh : model_.meshes) {
+        add_mesh(mesh, Transform::Identity());
+      }
     } else {
-      for (const int root : roots()) walk(root);
+      for (const int root : roots()) {
+        walk(root);
+      }
     }
     return object_.finish();
   }
@@ -151,15 +174,23 @@ class SceneReader {
  private:
   // The nodes of the scene to show; in a file without scenes, those that are nobody's child.
   std::vector<int> roots() const {
-    if (!model_.scenes.empty()) return element_at(model_.scenes, std::max(model_.defaultScene, 0), "scene").nodes;
+    if (!model_.scenes.empty()) {
+      return element_at(model_.scenes, std::max(model_.defaultScene, 0), "scene").nodes;
+    }
     std::vector<bool> is_child(model_.nodes.size(), false);
-    for (const tinygltf::Node& node : model_.nodes)
-      for (const int child : node.children)
-        if (child >= 0 && static_cast<std::size_t>(child) < is_child.size())
+    for (const tinygltf::Node& node : model_.nodes) {
+      for (const int child : node.children) {
+        if (child >= 0 && static_cast<std::size_t>(child) < is_child.size()) {
           is_child[static_cast<std::size_t>(child)] = true;
+        }
+      }
+    }
     std::vector<int> list;
-    for (std::size_t i = 0; i < is_child.size(); ++i)
-      if (!is_child[i]) list.push_back(static_cast<int>(i));
+    for (std::size_t i = 0; i < is_child.size(); ++i) {
+      if (!is_child[i]) {
+        list.push_back(static_cast<int>(i));
+      }
+    }
     return list;
   }
 
@@ -171,16 +202,19 @@ class SceneReader {
       waiting.pop_back();
       const tinygltf::Node& node = element_at(model_.nodes, index, "node");
       // glTF demands a tree. This is what ends a circle, and keeps diamonds from doubling at every level.
-      if (visited_[static_cast<std::size_t>(index)])
+      if (visited_[static_cast<std::size_t>(index)]) {
         throw InputError(fmt::format("its node {} is below two nodes or below itself", index));
+      }
       visited_[static_cast<std::size_t>(index)] = true;
       const Transform transform = parent * local_transform(node);
       // A mesh with a skin is placed by its bones, not by its node; at rest that leaves it as it is written.
-      if (node.mesh >= 0)
+      if (node.mesh >= 0) {
         add_mesh(element_at(model_.meshes, node.mesh, "mesh"),
                  node.skin >= 0 ? Transform(Transform::Identity()) : transform);
-      for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
+      }
+      for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
         waiting.emplace_back(*child, transform);
+      }
     }
   }
 
@@ -192,10 +226,14 @@ class SceneReader {
       const bool is_lines = primitive.mode == TINYGLTF_MODE_LINE || primitive.mode == TINYGLTF_MODE_LINE_LOOP ||
                             primitive.mode == TINYGLTF_MODE_LINE_STRIP;
       const auto position = primitive.attributes.find("POSITION");
-      if (is_lines || position == primitive.attributes.end()) continue;
+      if (is_lines || position == primitive.attributes.end()) {
+        continue;
+      }
       const Values positions(model_, position->second, TINYGLTF_TYPE_VEC3);
       const auto [known, is_new] = placed.try_emplace(position->second, static_cast<std::uint32_t>(object_.vertices()));
-      if (is_new) add_vertices(positions, transform);
+      if (is_new) {
+        add_vertices(positions, transform);
+      }
       const bool mirrored = transform.topLeftCorner<3, 3>().determinant() < 0;
       add_faces(primitive, known->second, positions.count(), mirrored);
     }
@@ -207,7 +245,9 @@ class SceneReader {
     for (std::size_t i = 0; i < positions.count(); ++i) {
       const Vec3 local(positions.value(i, 0), positions.value(i, 1), positions.value(i, 2));
       const Vec3 placed = (transform * local.homogeneous()).head<3>();
-      if (!placed.allFinite()) positions.fail(fmt::format("holds the vertex {}, which is not finite", i));
+      if (!placed.allFinite()) {
+        positions.fail(fmt::format("holds the vertex {}, which is not finite", i));
+      }
       object_.add_vertex(placed);
     }
   }
@@ -215,11 +255,16 @@ class SceneReader {
   // A mirror turns faces inside out; glTF says to turn them back.
   void add_faces(const tinygltf::Primitive& primitive, std::uint32_t first, std::size_t vertices, bool mirrored) {
     const int mode = primitive.mode;
-    if (mode == TINYGLTF_MODE_POINTS) return;
-    if (mode != TINYGLTF_MODE_TRIANGLES && mode != TINYGLTF_MODE_TRIANGLE_STRIP && mode != TINYGLTF_MODE_TRIANGLE_FAN)
+    if (mode == TINYGLTF_MODE_POINTS) {
+      return;
+    }
+    if (mode != TINYGLTF_MODE_TRIANGLES && mode != TINYGLTF_MODE_TRIANGLE_STRIP && mode != TINYGLTF_MODE_TRIANGLE_FAN) {
       throw InputError(fmt::format("has a primitive of the unknown mode {}", mode));
+    }
     std::vector<Values> indices;  // one or none
-    if (primitive.indices >= 0) indices.emplace_back(model_, primitive.indices, TINYGLTF_TYPE_SCALAR);
+    if (primitive.indices >= 0) {
+      indices.emplace_back(model_, primitive.indices, TINYGLTF_TYPE_SCALAR);
+    }
     const std::size_t corners = indices.empty() ? vertices : indices[0].count();
     const auto corner = [&](std::size_t i) {
       return first + (indices.empty() ? static_cast<std::uint32_t>(i) : indices[0].index(i, vertices));
@@ -230,7 +275,9 @@ class SceneReader {
       const std::uint32_t a = corner(mode == TINYGLTF_MODE_TRIANGLE_FAN ? 0 : i);
       std::uint32_t b = corner(i + 1), c = corner(i + 2);
       const bool odd_of_strip = mode == TINYGLTF_MODE_TRIANGLE_STRIP && i % 2 == 1;
-      if (mirrored != odd_of_strip) std::swap(b, c);
+      if (mirrored != odd_of_strip) {
+        std::swap(b, c);
+      }
       object_.add_triangle(a, b, c);
     }
   }
@@ -238,8 +285,8 @@ class SceneReader {
   // Primitives take time even where they add nothing, and half a file of nodes may show a mesh of the other half: each
   // time that one is looked at counts as if it took memory.
   void check_more(std::uint64_t vertices, std::uint64_t triangles) const {
-    constexpr std::uint64_t for_each_primitive = 64;
-    object_.check_more(vertices, triangles, document_.memory + for_each_primitive * primitives_, document_.file_size);
+    constexpr std::uint64_t kForEachPrimitive = 64;
+    object_.check_more(vertices, triangles, document_.memory + kForEachPrimitive * primitives_, document_.file_size);
   }
 
   const GltfDocument& document_;

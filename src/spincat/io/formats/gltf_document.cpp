@@ -40,55 +40,76 @@ struct Container {
 };
 
 Container open_container(std::string_view bytes) {
-  constexpr std::uint32_t json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;  // "JSON", "BIN\0"
-  if (!bytes.starts_with("glTF")) return {bytes, std::nullopt};
-  constexpr std::size_t header_size = 12, chunk_header_size = 8;
-  if (bytes.size() < header_size) throw InputError("is cut off within its header");
-  if (const auto version = load<std::uint32_t>(bytes.data() + 4); version != 2)
+  constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;  // "JSON", "BIN\0"
+  if (!bytes.starts_with("glTF")) {
+    return {bytes, std::nullopt};
+  }
+  constexpr std::size_t kHeaderSize = 12, kChunkHeaderSize = 8;
+  if (bytes.size() < kHeaderSize) {
+    throw InputError("is cut off within its header");
+  }
+  if (const auto version = load<std::uint32_t>(bytes.data() + 4); version != 2) {
     throw InputError(fmt::format("is a GLB file of version {}; spincat reads version 2", version));
+  }
   const std::size_t length = load<std::uint32_t>(bytes.data() + 8);
-  if (length > bytes.size()) throw InputError(fmt::format("is cut off: {} of {} bytes", bytes.size(), length));
-  bytes.remove_prefix(header_size);
+  if (length > bytes.size()) {
+    throw InputError(fmt::format("is cut off: {} of {} bytes", bytes.size(), length));
+  }
+  bytes.remove_prefix(kHeaderSize);
 
   Container container;
-  while (bytes.size() >= chunk_header_size) {
+  while (bytes.size() >= kChunkHeaderSize) {
     const std::size_t size = load<std::uint32_t>(bytes.data());
     const auto type = load<std::uint32_t>(bytes.data() + 4);
-    bytes.remove_prefix(chunk_header_size);
-    if (size > bytes.size()) throw InputError("is cut off within a chunk");
-    if (type == json_chunk && container.text.empty()) container.text = bytes.substr(0, size);
-    if (type == binary_chunk && !container.binary) container.binary = bytes.substr(0, size);
+    bytes.remove_prefix(kChunkHeaderSize);
+    if (size > bytes.size()) {
+      throw InputError("is cut off within a chunk");
+    }
+    if (type == kJsonChunk && container.text.empty()) {
+      container.text = bytes.substr(0, size);
+    }
+    if (type == kBinaryChunk && !container.binary) {
+      container.binary = bytes.substr(0, size);
+    }
     bytes.remove_prefix(size);
   }
   // Some programs fill the chunk up with zeros where blanks are due.
-  while (container.text.ends_with('\0')) container.text.remove_suffix(1);
+  while (container.text.ends_with('\0')) {
+    container.text.remove_suffix(1);
+  }
   return container;
 }
 
 // A list holds its old and its new memory for a moment while it grows.
-constexpr std::uint64_t while_growing = 3;
+constexpr std::uint64_t kWhileGrowing = 3;
 
 // Looks over the brackets before anything is built from them. tinygltf goes down nested values by recursion: 100,000
 // brackets must not exhaust the stack; and each "{}" of a few bytes becomes a hundred in memory. The memory that
 // nlohmann's values will take.
 std::uint64_t check_brackets(std::string_view text, const ReadLimits& limits) {
-  constexpr int deepest = 64;
-  constexpr std::uint64_t on_heap = 64;
+  constexpr int kDeepest = 64;
+  constexpr std::uint64_t kOnHeap = 64;
   int depth = 0;
   std::uint64_t memory = 0;
   bool in_string = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (in_string) {
-      if (text[i] == '"') in_string = false;
-      if (text[i] == '\\') ++i;
+      if (text[i] == '"') {
+        in_string = false;
+      }
+      if (text[i] == '\\') {
+        ++i;
+      }
     } else if (text[i] == '"') {
       in_string = true;
-      memory += on_heap;
+      memory += kOnHeap;
     } else if (text[i] == ',') {
-      memory += while_growing * sizeof(json);
+      memory += kWhileGrowing * sizeof(json);
     } else if (text[i] == '[' || text[i] == '{') {
-      if (++depth > deepest) throw InputError(fmt::format("its JSON is nested more than {} levels deep", deepest));
-      memory += on_heap + sizeof(json);
+      if (++depth > kDeepest) {
+        throw InputError(fmt::format("its JSON is nested more than {} levels deep", kDeepest));
+      }
+      memory += kOnHeap + sizeof(json);
     } else if (text[i] == ']' || text[i] == '}') {
       --depth;
     }
@@ -99,26 +120,32 @@ std::uint64_t check_brackets(std::string_view text, const ReadLimits& limits) {
 
 // What has no part in the shape of an object at rest.
 bool is_no_shape(const std::string& key) {
-  static constexpr std::array<std::string_view, 15> keys{
+  static constexpr std::array<std::string_view, 15> kEys{
       "animations", "cameras", "extensions", "extensionsUsed", "extras",  "images",   "materials", "max",
       "min",        "name",    "samplers",   "skins",          "targets", "textures", "weights"};
-  return std::find(keys.begin(), keys.end(), key) != keys.end();
+  return std::find(kEys.begin(), kEys.end(), key) != kEys.end();
 }
 
 // Recursion is safe here: check_brackets has bounded the depth.
 void leave_out_what_is_no_shape(json& value) {
   if (value.is_object()) {
-    for (auto member = value.begin(); member != value.end();)
+    for (auto member = value.begin(); member != value.end();) {
       member = is_no_shape(member.key()) ? value.erase(member) : std::next(member);
+    }
   }
-  if (value.is_structured())
-    for (json& part : value) leave_out_what_is_no_shape(part);
+  if (value.is_structured()) {
+    for (json& part : value) {
+      leave_out_what_is_no_shape(part);
+    }
+  }
 }
 
 json parse(std::string_view text) {
   try {
     json document = json::parse(text);
-    if (!document.is_object()) throw InputError("is no glTF file: its JSON is not an object");
+    if (!document.is_object()) {
+      throw InputError("is no glTF file: its JSON is not an object");
+    }
     leave_out_what_is_no_shape(document);
     return document;
   } catch (const json::parse_error& error) {
@@ -131,18 +158,25 @@ json parse(std::string_view text) {
 // Extensions that a file declares indispensable but that say nothing about where its surfaces are.
 bool is_harmless_extension(const std::string& name) {
   for (const std::string_view prefix : {"KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_",
-                                        "KHR_lights_punctual", "KHR_mesh_quantization", "KHR_xmp"})
-    if (name.starts_with(prefix)) return true;
+                                        "KHR_lights_punctual", "KHR_mesh_quantization", "KHR_xmp"}) {
+    if (name.starts_with(prefix)) {
+      return true;
+    }
+  }
   return false;
 }
 
 void check_extensions(const json& document) {
   const auto required = document.find("extensionsRequired");
-  if (required == document.end() || !required->is_array()) return;
-  for (const json& name : *required)
-    if (name.is_string() && !is_harmless_extension(name.get<std::string>()))
+  if (required == document.end() || !required->is_array()) {
+    return;
+  }
+  for (const json& name : *required) {
+    if (name.is_string() && !is_harmless_extension(name.get<std::string>())) {
       throw InputError(
           fmt::format("needs the glTF extension {}, which spincat does not read", in_quotes(name.get<std::string>())));
+    }
+  }
 }
 
 std::size_t array_size(const json& object, const char* key) {
@@ -153,8 +187,9 @@ std::size_t array_size(const json& object, const char* key) {
 // tinygltf takes hundreds of bytes for each "{}".
 std::uint64_t memory_of(const json& document) {
   std::size_t primitives = 0;
-  for (std::size_t i = 0; i < array_size(document, "meshes"); ++i)
+  for (std::size_t i = 0; i < array_size(document, "meshes"); ++i) {
     primitives += array_size(document["meshes"][i], "primitives");
+  }
   return array_size(document, "nodes") * sizeof(tinygltf::Node) +
          array_size(document, "meshes") * sizeof(tinygltf::Mesh) + primitives * sizeof(tinygltf::Primitive) +
          array_size(document, "accessors") * sizeof(tinygltf::Accessor) +
@@ -180,16 +215,20 @@ std::string decode_percent(std::string_view uri) {
 std::filesystem::path path_beside(const std::filesystem::path& folder, const std::string& uri) {
   const std::filesystem::path relative = std::filesystem::path(decode_percent(uri)).lexically_normal();
   const bool outside = relative.is_absolute() || relative.empty() || *relative.begin() == "..";
-  if (outside || relative.native().find('\0') != std::string::npos)
+  if (outside || relative.native().find('\0') != std::string::npos) {
     throw InputError(fmt::format("its buffer {} does not lie in the file's own folder", in_quotes(uri)));
+  }
   return folder / relative;
 }
 
 struct stat status_beside(const std::filesystem::path& folder, const std::string& uri) {
   struct stat status = {};
-  if (::stat(path_beside(folder, uri).c_str(), &status) != 0)
+  if (::stat(path_beside(folder, uri).c_str(), &status) != 0) {
     throw InputError(fmt::format("its buffer {}: {}", in_quotes(uri), system_error_text(errno)));
-  if (!S_ISREG(status.st_mode)) throw InputError(fmt::format("its buffer {} is no regular file", in_quotes(uri)));
+  }
+  if (!S_ISREG(status.st_mode)) {
+    throw InputError(fmt::format("its buffer {} is no regular file", in_quotes(uri)));
+  }
   return status;
 }
 
@@ -203,8 +242,9 @@ std::string read_beside(const std::filesystem::path& folder, const std::string& 
 
 std::uint64_t length_of(const json& buffer, std::size_t number) {
   const auto length = buffer.is_object() ? buffer.find("byteLength") : buffer.end();
-  if (length == buffer.end() || !length->is_number_unsigned())
+  if (length == buffer.end() || !length->is_number_unsigned()) {
     throw InputError(fmt::format("its buffer {} has no byteLength", number));
+  }
   return length->get<std::uint64_t>();
 }
 
@@ -214,7 +254,9 @@ const std::string* uri_of(const json& buffer) {
 }
 
 void check_whole(std::size_t number, std::uint64_t size, std::uint64_t length) {
-  if (size < length) throw InputError(fmt::format("its buffer {} is cut off: {} of {} bytes", number, size, length));
+  if (size < length) {
+    throw InputError(fmt::format("its buffer {} is cut off: {} of {} bytes", number, size, length));
+  }
 }
 
 // In bytes. Buffers written into the text (data:) do not count: they are as long as it.
@@ -227,25 +269,27 @@ struct BufferSizes {
 // Looks the buffers up without reading them: a few bytes of text name one, any number of them may name the same file,
 // and that may be of any size.
 BufferSizes measure_buffers(const json& document, const Container& container, const std::filesystem::path& folder) {
-  constexpr std::uint64_t most = std::uint64_t{1} << 60;  // beyond all memory; sums stay below the largest number
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 60;  // beyond all memory; sums stay below the largest number
   BufferSizes sizes;
   std::map<std::pair<dev_t, ino_t>, std::uint64_t> read_of_file;  // by which it is known under all its names
   for (std::size_t i = 0; i < array_size(document, "buffers"); ++i) {
     const json& buffer = document["buffers"][i];
     const std::uint64_t length = length_of(buffer, i);
     const std::string* uri = uri_of(buffer);
-    if (uri != nullptr && tinygltf::IsDataURI(*uri)) continue;
+    if (uri != nullptr && tinygltf::IsDataURI(*uri)) {
+      continue;
+    }
     if (uri != nullptr) {
       const struct stat status = status_beside(folder, *uri);
       check_whole(i, static_cast<std::uint64_t>(status.st_size), length);
       std::uint64_t& read = read_of_file[{status.st_dev, status.st_ino}];
       const std::uint64_t before = std::exchange(read, std::max(read, length));
-      sizes.files = std::min(most, sizes.files + read - before);
+      sizes.files = std::min(kMost, sizes.files + read - before);
     } else {
       check_whole(i, i == 0 && container.binary ? container.binary->size() : 0, length);
     }
-    sizes.memory = std::min(most, sizes.memory + length);
-    sizes.largest = std::min(most, std::max(sizes.largest, length));
+    sizes.memory = std::min(kMost, sizes.memory + length);
+    sizes.largest = std::min(kMost, std::max(sizes.largest, length));
   }
   return sizes;
 }
@@ -259,7 +303,9 @@ std::vector<std::string> collect_buffers(json& document, const Container& contai
     json& buffer = document["buffers"][i];
     const std::uint64_t length = length_of(buffer, i);
     const std::string* uri = uri_of(buffer);
-    if (uri != nullptr && tinygltf::IsDataURI(*uri)) continue;
+    if (uri != nullptr && tinygltf::IsDataURI(*uri)) {
+      continue;
+    }
     if (uri != nullptr) {
       buffers[i] = read_beside(folder, *uri, length);
     } else if (container.binary) {
@@ -280,7 +326,9 @@ tinygltf::FsCallbacks callbacks_for(std::vector<std::string>& buffers) {
     auto& all = *static_cast<std::vector<std::string>*>(data);
     std::size_t number = all.size();
     std::from_chars(path.data(), path.data() + path.size(), number);
-    if (number >= all.size()) return false;
+    if (number >= all.size()) {
+      return false;
+    }
     out->assign(all[number].begin(), all[number].end());
     std::string().swap(all[number]);
     return true;
@@ -291,8 +339,8 @@ tinygltf::FsCallbacks callbacks_for(std::vector<std::string>& buffers) {
 
 // tinygltf's complaints come in several lines, and with bytes of the file in them.
 std::string one_line(const std::string& complaint) {
-  constexpr std::size_t longest = 200;
-  std::string line = complaint.substr(0, std::min(complaint.find('\n'), longest));
+  constexpr std::size_t kLongest = 200;
+  std::string line = complaint.substr(0, std::min(complaint.find('\n'), kLongest));
   std::replace_if(
       line.begin(), line.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
   return line.empty() ? "is no valid glTF file" : "is no valid glTF file: " + line;
@@ -307,13 +355,15 @@ GltfDocument read_gltf_document(std::string_view bytes, const std::filesystem::p
   check_extensions(document);
   const BufferSizes sizes = measure_buffers(document, container, folder);
   const std::uint64_t size = bytes.size() + sizes.files;
-  const std::uint64_t memory = while_growing * memory_of(document) + sizes.memory;
+  const std::uint64_t memory = kWhileGrowing * memory_of(document) + sizes.memory;
   // Each buffer is there twice while tinygltf takes it over.
   check_growth(memory_of_values + memory + sizes.largest, size, limits);
   std::vector<std::string> buffers = collect_buffers(document, container, folder);
   const std::string text = document.dump();
   document = json();  // tinygltf makes its own: not both at once
-  if (text.size() > std::numeric_limits<std::uint32_t>::max()) throw InputError("holds more than 4 GB of JSON");
+  if (text.size() > std::numeric_limits<std::uint32_t>::max()) {
+    throw InputError("holds more than 4 GB of JSON");
+  }
 
   tinygltf::TinyGLTF reader;
   reader.SetFsCallbacks(callbacks_for(buffers));
@@ -331,7 +381,9 @@ GltfDocument read_gltf_document(std::string_view bytes, const std::filesystem::p
   } catch (const std::exception& exception) {
     error = exception.what();
   }
-  if (!read) throw InputError(one_line(error));
+  if (!read) {
+    throw InputError(one_line(error));
+  }
   return result;
 }
 

@@ -32,28 +32,35 @@ class ObjReader {
       }
       text_.skip_line();  // of a vertex: its weight or colour
     }
-    if (highest_index_ > 0 && static_cast<std::uint64_t>(highest_index_) > object_.vertices())
+    if (highest_index_ > 0 && static_cast<std::uint64_t>(highest_index_) > object_.vertices()) {
       throw InputError(
           fmt::format("line {}: {}", highest_index_line_, out_of_range(highest_index_, object_.vertices())));
+    }
     return object_.finish();
   }
 
  private:
   Vec3 read_position() {
     Vec3 position;
-    for (double& coordinate : position) coordinate = text_.finite_number("a coordinate");
+    for (double& coordinate : position) {
+      coordinate = text_.finite_number("a coordinate");
+    }
     return position;
   }
 
   Vec3 read_normal() {
     Vec3 normal;
-    for (double& component : normal) component = text_.number("a component of a normal");
+    for (double& component : normal) {
+      component = text_.number("a component of a normal");
+    }
     return normal;
   }
 
   void read_face() {
     object_.begin_face();
-    while (text_.word_on_line()) object_.add_corner(read_corner());
+    while (text_.word_on_line()) {
+      object_.add_corner(read_corner());
+    }
   }
 
   // The vertex of a corner like 7, 7/1, 7//3, 7/1/3 or -1, which is the newest vertex.
@@ -63,11 +70,16 @@ class ObjReader {
     std::int64_t index = 0;
     const auto [last, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
     const bool whole = last == digits.data() + digits.size();
-    if (error != std::errc() || !(whole || *last == '/'))
+    if (error != std::errc() || !(whole || *last == '/')) {
       text_.fail("expected a vertex index, found " + in_quotes(word));
+    }
     const auto vertices = static_cast<std::int64_t>(object_.vertices());
-    if (index == 0 || index < -vertices || index > most_index) text_.fail(out_of_range(index, object_.vertices()));
-    if (index < 0) return static_cast<std::uint32_t>(vertices + index);
+    if (index == 0 || index < -vertices || index > kMostIndex) {
+      text_.fail(out_of_range(index, object_.vertices()));
+    }
+    if (index < 0) {
+      return static_cast<std::uint32_t>(vertices + index);
+    }
     // A face may stand before its vertices: whether they come shows at the end.
     if (index > highest_index_) {
       highest_index_ = index;
@@ -76,7 +88,7 @@ class ObjReader {
     return static_cast<std::uint32_t>(index - 1);
   }
 
-  static constexpr std::int64_t most_index = 0xFFFF'FFFF;
+  static constexpr std::int64_t kMostIndex = 0xFFFF'FFFF;
 
   TextCursor text_;
   ObjectBuilder object_;

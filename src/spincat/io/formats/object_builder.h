@@ -27,19 +27,23 @@ inline std::string out_of_range(std::int64_t index, std::uint64_t vertices) {
 class ObjectBuilder {
  public:
   explicit ObjectBuilder(const ReadLimits& limits) : limits_(limits) {
-    if (limits_.max_points > most_vertices) limits_.max_points = most_vertices;
+    if (limits_.max_points > kMostVertices) {
+      limits_.max_points = kMostVertices;
+    }
   }
 
   // Throws when so many vertices are not allowed. Reserves no memory: that is for expect_vertices, once the caller
   // knows that the file is long enough for them.
   void check_vertices(std::uint64_t count) const {
-    if (count > limits_.max_points)
+    if (count > limits_.max_points) {
       throw InputError(fmt::format("holds more than {} points; --max-points raises this limit", limits_.max_points));
+    }
   }
   void check_triangles(std::uint64_t count) const {
-    if (count > limits_.max_triangles)
+    if (count > limits_.max_triangles) {
       throw InputError(
           fmt::format("holds more than {} triangles; --max-triangles raises this limit", limits_.max_triangles));
+    }
   }
   void expect_vertices(std::uint64_t count) {
     check_vertices(count);
@@ -51,7 +55,9 @@ class ObjectBuilder {
   }
 
   void add_vertex(const Vec3& vertex) {
-    if (mesh_.vertices.size() == limits_.max_points) check_vertices(limits_.max_points + std::uint64_t{1});
+    if (mesh_.vertices.size() == limits_.max_points) {
+      check_vertices(limits_.max_points + std::uint64_t{1});
+    }
     mesh_.vertices.push_back(vertex);
   }
   // Adds a vertex unless there is an equal one; its index.
@@ -62,33 +68,46 @@ class ObjectBuilder {
   }
   // Normals of points; they are dropped when a face turns up or when not every point has one.
   void add_normal(const Vec3& normal) {
-    if (mesh_.triangles.empty()) normals_.push_back(normal);
+    if (mesh_.triangles.empty()) {
+      normals_.push_back(normal);
+    }
   }
   void forget_normals() { std::vector<Vec3>().swap(normals_); }
   void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    if (mesh_.triangles.size() == limits_.max_triangles) check_triangles(limits_.max_triangles + std::uint64_t{1});
-    if (mesh_.triangles.empty()) forget_normals();
+    if (mesh_.triangles.size() == limits_.max_triangles) {
+      check_triangles(limits_.max_triangles + std::uint64_t{1});
+    }
+    if (mesh_.triangles.empty()) {
+      forget_normals();
+    }
     mesh_.triangles.push_back({a, b, c});
     largest_index_ = std::max({largest_index_, a, b, c});
   }
 
   // In a point cloud a coordinate that is not finite means "nothing measured here".
   void add_point(const Vec3& point) {
-    if (point.allFinite())
+    if (point.allFinite()) {
       add_vertex(point);
-    else
+    } else {
       left_out_ = true;
+    }
   }
   void add_point(const Vec3& point, const Vec3& normal) {
-    if (point.allFinite()) add_normal(normal);
+    if (point.allFinite()) {
+      add_normal(normal);
+    }
     add_point(point);
   }
 
   // A polygon, corner by corner, becomes a fan around its first corner. One or two corners become nothing.
   void begin_face() { corners_ = 0; }
   void add_corner(std::uint32_t vertex) {
-    if (corners_ == 0) first_ = vertex;
-    if (corners_ >= 2) add_triangle(first_, previous_, vertex);
+    if (corners_ == 0) {
+      first_ = vertex;
+    }
+    if (corners_ >= 2) {
+      add_triangle(first_, previous_, vertex);
+    }
     previous_ = vertex;
     ++corners_;
   }
@@ -103,8 +122,8 @@ class ObjectBuilder {
   void check_more(std::uint64_t vertices, std::uint64_t triangles, std::uint64_t memory,
                   std::uint64_t file_size) const {
     // A vector that grows holds its old and its new memory for a moment.
-    constexpr std::uint64_t while_growing = 3;
-    check_growth(memory + while_growing * ((mesh_.vertices.size() + vertices) * sizeof(Vec3) +
+    constexpr std::uint64_t kWhileGrowing = 3;
+    check_growth(memory + kWhileGrowing * ((mesh_.vertices.size() + vertices) * sizeof(Vec3) +
                                            (mesh_.triangles.size() + triangles) * sizeof(Triangle)),
                  file_size, limits_);
   }
@@ -113,18 +132,22 @@ class ObjectBuilder {
   // readers check that with a line, but what they check against may be what a file announces.
   Object finish() {
     if (!mesh_.triangles.empty()) {
-      if (largest_index_ >= mesh_.vertices.size())
+      if (largest_index_ >= mesh_.vertices.size()) {
         throw InputError(out_of_range(largest_index_, mesh_.vertices.size()));
+      }
       return std::move(mesh_);
     }
-    if (mesh_.vertices.empty())
+    if (mesh_.vertices.empty()) {
       throw InputError(left_out_ ? "holds only points without finite coordinates" : "holds neither a face nor a point");
-    if (normals_.size() != mesh_.vertices.size()) forget_normals();
+    }
+    if (normals_.size() != mesh_.vertices.size()) {
+      forget_normals();
+    }
     return PointCloud{std::move(mesh_.vertices), std::move(normals_), sensor_};
   }
 
  private:
-  static constexpr std::size_t most_vertices = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::size_t kMostVertices = std::numeric_limits<std::uint32_t>::max();
 
   ReadLimits limits_;
   Mesh mesh_;

@@ -21,12 +21,16 @@ struct Header {
 // [ST][C][N][4][n]OFF, which may be glued to the counts or missing altogether.
 Header read_header(TextCursor& text) {
   Header header;
-  if (!text.word_follows()) text.fail("expected the header 'OFF', but the file ends here");
+  if (!text.word_follows()) {
+    text.fail("expected the header 'OFF', but the file ends here");
+  }
   const std::string_view word = text.peek();
   std::size_t at = 0;
   const auto take = [&](std::string_view letters) {
     const bool found = word.substr(at).starts_with(letters);
-    if (found) at += letters.size();
+    if (found) {
+      at += letters.size();
+    }
     return found;
   };
   take("ST");
@@ -35,15 +39,20 @@ Header read_header(TextCursor& text) {
   const bool four = take("4");
   const bool any_dimension = take("n");
   if (!same_word(word.substr(at, 3), "OFF")) {
-    if (word[0] < '0' || word[0] > '9') text.fail("expected the header 'OFF', found " + in_quotes(word));
+    if (word[0] < '0' || word[0] > '9') {
+      text.fail("expected the header 'OFF', found " + in_quotes(word));
+    }
     return {};
   }
-  if (four || any_dimension)
+  if (four || any_dimension) {
     text.fail(
         fmt::format("is a {} file, whose vertices do not have three coordinates; spincat reads only those that do",
                     word.substr(0, at + 3)));
+  }
   text.take(at + 3);
-  if (text.peek() == "BINARY") text.fail("is a binary OFF file; spincat reads only the text form");
+  if (text.peek() == "BINARY") {
+    text.fail("is a binary OFF file; spincat reads only the text form");
+  }
   return header;
 }
 
@@ -56,7 +65,9 @@ void read_vertex(TextCursor& text, bool with_normal, ObjectBuilder& object) {
   object.add_vertex(vertex);
   if (with_normal) {
     Vec3 normal;
-    for (double& component : normal) component = text.number("a component of a normal");
+    for (double& component : normal) {
+      component = text.number("a component of a normal");
+    }
     object.add_normal(normal);
   }
   text.skip_line();  // a colour, a place in a texture
@@ -69,7 +80,9 @@ void read_face(TextCursor& text, std::uint64_t vertices, ObjectBuilder& object) 
   for (std::uint64_t i = 0; i < corners; ++i) {
     text.word_follows();
     const std::int64_t index = text.integer("a vertex index");
-    if (index < 0 || static_cast<std::uint64_t>(index) >= vertices) text.fail(out_of_range(index, vertices));
+    if (index < 0 || static_cast<std::uint64_t>(index) >= vertices) {
+      text.fail(out_of_range(index, vertices));
+    }
     object.add_corner(static_cast<std::uint32_t>(index));
   }
   text.skip_line();  // a colour
@@ -77,8 +90,9 @@ void read_face(TextCursor& text, std::uint64_t vertices, ObjectBuilder& object) 
 
 // Throws unless `count` lines of at least `bytes` each fit into what is left; the last may lack its line end.
 void check_fits(const TextCursor& text, std::uint64_t count, const char* what, std::uint64_t bytes) {
-  if (count > (text.bytes_left() + 1) / bytes)
+  if (count > (text.bytes_left() + 1) / bytes) {
     text.fail(fmt::format("announces {} {}, more than fit into the rest of the file", count, what));
+  }
 }
 
 }  // namespace
@@ -94,11 +108,17 @@ Object read_off(std::string_view bytes, const ReadLimits& limits) {
   check_fits(text, vertices, "vertices", 6);  // "0 0 0\n"
   check_fits(text, faces, "faces", 2);        // "0\n"
   object.expect_vertices(vertices);
-  if (faces <= text.bytes_left() / 8) object.reserve_triangles(faces);  // "3 0 0 0\n": most are triangles
+  if (faces <= text.bytes_left() / 8) {
+    object.reserve_triangles(faces);  // "3 0 0 0\n": most are triangles
+  }
   text.skip_line();  // the number of edges, which nobody needs and many leave out
 
-  for (std::uint64_t i = 0; i < vertices; ++i) read_vertex(text, header.normals && faces == 0, object);
-  for (std::uint64_t i = 0; i < faces; ++i) read_face(text, vertices, object);
+  for (std::uint64_t i = 0; i < vertices; ++i) {
+    read_vertex(text, header.normals && faces == 0, object);
+  }
+  for (std::uint64_t i = 0; i < faces; ++i) {
+    read_face(text, vertices, object);
+  }
   return object.finish();
 }
 

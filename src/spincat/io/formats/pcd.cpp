@@ -41,12 +41,16 @@ struct Header {
 
   std::uint64_t values_per_point() const {
     std::uint64_t sum = 0;
-    for (const Field& field : fields) sum += field.count;
+    for (const Field& field : fields) {
+      sum += field.count;
+    }
     return sum;
   }
   std::uint64_t point_size() const {
     std::uint64_t sum = 0;
-    for (const Field& field : fields) sum += field.count * field.size;
+    for (const Field& field : fields) {
+      sum += field.count * field.size;
+    }
     return sum;
   }
 };
@@ -59,7 +63,9 @@ class HeaderReader {
   Header read() {
     for (; text_.word_follows(); text_.skip_line()) {
       const std::string_view keyword = text_.word();
-      if (keyword == "DATA") return finish();
+      if (keyword == "DATA") {
+        return finish();
+      }
       read_line(keyword);
     }
     text_.fail("the file ends within the header, before 'DATA'");
@@ -68,13 +74,21 @@ class HeaderReader {
  private:
   void read_line(std::string_view keyword) {
     if (keyword == "FIELDS" || keyword == "COLUMNS") {
-      while (text_.word_on_line()) add_field(text_.word());
+      while (text_.word_on_line()) {
+        add_field(text_.word());
+      }
     } else if (keyword == "SIZE") {
-      for (Field& field : header_.fields) field.size = read_size();
+      for (Field& field : header_.fields) {
+        field.size = read_size();
+      }
     } else if (keyword == "TYPE") {
-      for (Field& field : header_.fields) field.type = read_type();
+      for (Field& field : header_.fields) {
+        field.type = read_type();
+      }
     } else if (keyword == "COUNT") {
-      for (Field& field : header_.fields) field.count = read_count();
+      for (Field& field : header_.fields) {
+        field.count = read_count();
+      }
     } else if (keyword == "WIDTH") {
       width_ = text_.count("the width");
     } else if (keyword == "HEIGHT") {
@@ -89,55 +103,73 @@ class HeaderReader {
   }
 
   void add_field(std::string_view name) {
-    constexpr std::size_t most = 1'000;  // a field takes far more memory than its name
-    if (header_.fields.size() == most) text_.fail(fmt::format("more than {} fields", most));
+    constexpr std::size_t kMost = 1'000;  // a field takes far more memory than its name
+    if (header_.fields.size() == kMost) {
+      text_.fail(fmt::format("more than {} fields", kMost));
+    }
     header_.fields.emplace_back().name = name;
   }
 
   std::uint64_t read_size() {
     const std::uint64_t size = text_.count("the size of a field");
-    if (size != 1 && size != 2 && size != 4 && size != 8)
+    if (size != 1 && size != 2 && size != 4 && size != 8) {
       text_.fail(fmt::format("a field's size must be 1, 2, 4 or 8, found {}", size));
+    }
     return size;
   }
 
   char read_type() {
     const std::string_view type = text_.word();
-    if (type != "F" && type != "I" && type != "U")
+    if (type != "F" && type != "I" && type != "U") {
       text_.fail("a field's type must be F, I or U, found " + in_quotes(type));
+    }
     return type[0];
   }
 
   std::uint64_t read_count() {
-    constexpr std::uint64_t most = 0xFFFF'FFFF;
+    constexpr std::uint64_t kMost = 0xFFFF'FFFF;
     const std::uint64_t count = text_.count("the count of a field");
-    if (count == 0 || count > most) text_.fail(fmt::format("a field's count must be at least 1, found {}", count));
+    if (count == 0 || count > kMost) {
+      text_.fail(fmt::format("a field's count must be at least 1, found {}", count));
+    }
     return count;
   }
 
   // The place of the sensor: a translation and a rotation (w x y z), of which normals need only the first.
   std::optional<Vec3> read_viewpoint() {
     std::array<double, 7> pose{};
-    for (double& number : pose) number = text_.finite_number("a number of the viewpoint");
-    constexpr std::array<double, 7> unknown{0, 0, 0, 1, 0, 0, 0};  // what programs write when they do not know
-    if (pose == unknown) return std::nullopt;
+    for (double& number : pose) {
+      number = text_.finite_number("a number of the viewpoint");
+    }
+    constexpr std::array<double, 7> kUnknown{0, 0, 0, 1, 0, 0, 0};  // what programs write when they do not know
+    if (pose == kUnknown) {
+      return std::nullopt;
+    }
     return Vec3(pose[0], pose[1], pose[2]);
   }
 
   Header finish() {
     header_.encoding = text_.word();
-    if (header_.fields.empty()) text_.fail("the header has no line 'FIELDS'");
-    if (!points_ && !width_) text_.fail("the header says neither 'POINTS' nor 'WIDTH'");
+    if (header_.fields.empty()) {
+      text_.fail("the header has no line 'FIELDS'");
+    }
+    if (!points_ && !width_) {
+      text_.fail("the header says neither 'POINTS' nor 'WIDTH'");
+    }
     if (width_) {
-      if (*width_ > longest_side || height_.value_or(1) > longest_side) text_.fail("WIDTH x HEIGHT is too large");
+      if (*width_ > kLongestSide || height_.value_or(1) > kLongestSide) {
+        text_.fail("WIDTH x HEIGHT is too large");
+      }
       const std::uint64_t area = *width_ * height_.value_or(1);
-      if (points_ && area != *points_)
+      if (points_ && area != *points_) {
         text_.fail(fmt::format("WIDTH {} x HEIGHT {} is not POINTS {}", *width_, height_.value_or(1), *points_));
+      }
       points_ = area;
     }
-    if (header_.encoding != "ascii" && header_.encoding != "binary" && header_.encoding != "binary_compressed")
+    if (header_.encoding != "ascii" && header_.encoding != "binary" && header_.encoding != "binary_compressed") {
       text_.fail("unknown data format " + in_quotes(header_.encoding) +
                  "; expected ascii, binary or binary_compressed");
+    }
     header_.points = *points_;
     header_.width = width_.value_or(0);
     header_.height = height_.value_or(1);
@@ -145,7 +177,7 @@ class HeaderReader {
     return header_;
   }
 
-  static constexpr std::uint64_t longest_side = 0xFFFF'FFFF;  // whose square is still a number
+  static constexpr std::uint64_t kLongestSide = 0xFFFF'FFFF;  // whose square is still a number
 
   TextCursor& text_;
   Header header_;
@@ -154,8 +186,12 @@ class HeaderReader {
 
 ScalarType scalar_type(const Field& field) {
   if (field.type == 'F') {
-    if (field.size == 4) return ScalarType::float32;
-    if (field.size == 8) return ScalarType::float64;
+    if (field.size == 4) {
+      return ScalarType::float32;
+    }
+    if (field.size == 8) {
+      return ScalarType::float64;
+    }
     throw InputError(fmt::format("field {}: no floating-point number has {} bytes", in_quotes(field.name), field.size));
   }
   const bool is_signed = field.type == 'I';
@@ -178,17 +214,21 @@ struct WantedFields {
 };
 
 WantedFields find_fields(const Header& header) {
-  static constexpr std::array<std::string_view, 6> names{"x", "y", "z", "normal_x", "normal_y", "normal_z"};
+  static constexpr std::array<std::string_view, 6> kNames{"x", "y", "z", "normal_x", "normal_y", "normal_z"};
   WantedFields wanted;
   std::size_t found = 0;
-  for (; found < names.size(); ++found) {
+  for (; found < kNames.size(); ++found) {
     const auto field = std::find_if(header.fields.begin(), header.fields.end(),
-                                    [&](const Field& f) { return f.name == names[found]; });
-    if (field == header.fields.end()) break;
+                                    [&](const Field& f) { return f.name == kNames[found]; });
+    if (field == header.fields.end()) {
+      break;
+    }
     wanted.index[found] = static_cast<std::size_t>(field - header.fields.begin());
   }
-  if (found < 3) throw InputError(fmt::format("its points have no field '{}'", names[found]));
-  wanted.number = found == names.size() ? 6 : 3;
+  if (found < 3) {
+    throw InputError(fmt::format("its points have no field '{}'", kNames[found]));
+  }
+  wanted.number = found == kNames.size() ? 6 : 3;
   return wanted;
 }
 
@@ -234,18 +274,23 @@ void add_point(const std::array<double, 6>& values, std::size_t number, PointSin
 
 void read_text(const Header& header, TextCursor& text, PointSink& sink) {
   const WantedFields wanted = find_fields(header);
-  if (header.points > (text.bytes_left() + 1) / (2 * header.values_per_point()))
+  if (header.points > (text.bytes_left() + 1) / (2 * header.values_per_point())) {
     fail_cut_off(header, text.bytes_left());
+  }
   sink.expect(header.points);
   for (std::uint64_t i = 0; i < header.points; ++i, text.skip_line()) {
-    if (!text.word_follows()) text.fail(fmt::format("the file ends after {} of {} points", i, header.points));
+    if (!text.word_follows()) {
+      text.fail(fmt::format("the file ends after {} of {} points", i, header.points));
+    }
     std::array<double, 6> values{};
     for (std::size_t f = 0; f < header.fields.size(); ++f) {
       const auto* last = wanted.index.begin() + wanted.number;
       const auto* place = std::find(wanted.index.begin(), last, f);
       for (std::uint64_t k = 0; k < header.fields[f].count; ++k) {
         const double value = text.number("a number");
-        if (k == 0 && place != last) values[static_cast<std::size_t>(place - wanted.index.begin())] = value;
+        if (k == 0 && place != last) {
+          values[static_cast<std::size_t>(place - wanted.index.begin())] = value;
+        }
       }
     }
     add_point(values, wanted.number, sink);
@@ -266,30 +311,40 @@ void read_values(const Header& header, std::string_view bytes, bool by_field, Po
   for (std::size_t w = 0; w < wanted.number; ++w) {
     const Field& field = header.fields[wanted.index[w]];
     std::size_t offset = 0;
-    for (std::size_t f = 0; f < wanted.index[w]; ++f) offset += header.fields[f].size * header.fields[f].count;
+    for (std::size_t f = 0; f < wanted.index[w]; ++f) {
+      offset += header.fields[f].size * header.fields[f].count;
+    }
     columns[w] = by_field ? Column{scalar_type(field), offset * header.points, field.size * field.count}
                           : Column{scalar_type(field), offset, header.point_size()};
   }
   sink.expect(header.points);
   for (std::uint64_t i = 0; i < header.points; ++i) {
     std::array<double, 6> values{};
-    for (std::size_t w = 0; w < wanted.number; ++w)
+    for (std::size_t w = 0; w < wanted.number; ++w) {
       values[w] = load_scalar(bytes.data() + columns[w].offset + i * columns[w].stride, columns[w].type);
+    }
     add_point(values, wanted.number, sink);
   }
 }
 
 void read_compressed(const Header& header, std::string_view bytes, const ReadLimits& limits, PointSink& sink) {
-  if (bytes.size() < 8) fail_cut_off(header, bytes.size());
+  if (bytes.size() < 8) {
+    fail_cut_off(header, bytes.size());
+  }
   const std::size_t packed_size = load<std::uint32_t>(bytes.data());
   const std::size_t size = load<std::uint32_t>(bytes.data() + 4);
   bytes.remove_prefix(8);
-  if (packed_size > bytes.size()) fail_cut_off(header, bytes.size());
-  if (header.points > size / header.point_size() || header.points * header.point_size() != size)
+  if (packed_size > bytes.size()) {
+    fail_cut_off(header, bytes.size());
+  }
+  if (header.points > size / header.point_size() || header.points * header.point_size() != size) {
     throw InputError(fmt::format("its {} points of {} bytes do not make up the {} bytes that are compressed",
                                  header.points, header.point_size(), size));
-  constexpr std::size_t best_ratio = 88;  // 264 bytes out of 3
-  if (size / best_ratio > packed_size) throw InputError("its compressed points are damaged");
+  }
+  constexpr std::size_t kBestRatio = 88;  // 264 bytes out of 3
+  if (size / kBestRatio > packed_size) {
+    throw InputError("its compressed points are damaged");
+  }
   check_growth(size + header.points * 2 * sizeof(Vec3), bytes.size(), limits);
   read_values(header, unpack_lzf(bytes.substr(0, packed_size), size), true, sink);
 }
@@ -301,7 +356,9 @@ void read_points(const Header& header, TextCursor& text, std::string_view bytes,
   if (header.encoding == "ascii") {
     read_text(header, text, sink);
   } else if (header.encoding == "binary") {
-    if (header.points > body.size() / header.point_size()) fail_cut_off(header, body.size());
+    if (header.points > body.size() / header.point_size()) {
+      fail_cut_off(header, body.size());
+    }
     read_values(header, body, false, sink);
   } else {
     read_compressed(header, body, limits, sink);
@@ -315,7 +372,9 @@ Object read_pcd(std::string_view bytes, const ReadLimits& limits) {
   const Header header = HeaderReader(text).read();
   ObjectBuilder object(limits);
   object.check_vertices(header.points);
-  if (header.sensor) object.set_sensor(*header.sensor);
+  if (header.sensor) {
+    object.set_sensor(*header.sensor);
+  }
   ObjectSink sink(object);
   read_points(header, text, bytes, limits, sink);
   return object.finish();

@@ -53,23 +53,32 @@ ScalarType scalar_type(TextCursor& text) {
     std::string_view name, sized_name;
     ScalarType type;
   };
-  static constexpr std::array types{
+  static constexpr std::array kTypes{
       TypeName{"char", "int8", ScalarType::int8},        TypeName{"uchar", "uint8", ScalarType::uint8},
       TypeName{"short", "int16", ScalarType::int16},     TypeName{"ushort", "uint16", ScalarType::uint16},
       TypeName{"int", "int32", ScalarType::int32},       TypeName{"uint", "uint32", ScalarType::uint32},
       TypeName{"float", "float32", ScalarType::float32}, TypeName{"double", "float64", ScalarType::float64},
   };
   const std::string_view word = text.word();
-  for (const TypeName& type : types)
-    if (word == type.name || word == type.sized_name) return type.type;
+  for (const TypeName& type : kTypes) {
+    if (word == type.name || word == type.sized_name) {
+      return type.type;
+    }
+  }
   text.fail("unknown type " + in_quotes(word) + " of a property");
 }
 
 Encoding read_encoding(TextCursor& text) {
   const std::string_view word = text.word();
-  if (word == "ascii") return Encoding::ascii;
-  if (word == "binary_little_endian") return Encoding::little_endian;
-  if (word == "binary_big_endian") return Encoding::big_endian;
+  if (word == "ascii") {
+    return Encoding::ascii;
+  }
+  if (word == "binary_little_endian") {
+    return Encoding::little_endian;
+  }
+  if (word == "binary_big_endian") {
+    return Encoding::big_endian;
+  }
   text.fail("unknown format " + in_quotes(word) + "; expected ascii, binary_little_endian or binary_big_endian");
 }
 
@@ -85,11 +94,13 @@ Property read_property(TextCursor& text) {
 }
 
 // Each is compared with all before it.
-constexpr std::size_t most_elements = 100;
+constexpr std::size_t kMostElements = 100;
 
 // Leaves the cursor behind the line of end_header.
 Header read_header(TextCursor& text) {
-  if (text.word() != "ply") text.fail("expected the first line 'ply'");
+  if (text.word() != "ply") {
+    text.fail("expected the first line 'ply'");
+  }
   Header header;
   bool formatted = false;
   for (text.skip_line(); text.word_follows(); text.skip_line()) {
@@ -99,14 +110,22 @@ Header read_header(TextCursor& text) {
       formatted = true;
     } else if (keyword == "element") {
       const std::string name(text.word());
-      if (header.find(name) != nullptr) text.fail("a second element called " + in_quotes(name));
-      if (header.elements.size() == most_elements) text.fail(fmt::format("more than {} elements", most_elements));
+      if (header.find(name) != nullptr) {
+        text.fail("a second element called " + in_quotes(name));
+      }
+      if (header.elements.size() == kMostElements) {
+        text.fail(fmt::format("more than {} elements", kMostElements));
+      }
       header.elements.push_back({name, text.count("the number of elements"), {}});
     } else if (keyword == "property") {
-      if (header.elements.empty()) text.fail("a property before the first element");
+      if (header.elements.empty()) {
+        text.fail("a property before the first element");
+      }
       header.elements.back().properties.push_back(read_property(text));
     } else if (keyword == "end_header") {
-      if (!formatted) text.fail("the header has no line 'format'");
+      if (!formatted) {
+        text.fail("the header has no line 'format'");
+      }
       text.skip_line();
       return header;
     } else if (keyword != "comment" && keyword != "obj_info") {
@@ -126,7 +145,9 @@ class TextBody {
     return text_.number("a number");
   }
   void skip(std::uint64_t count, ScalarType type) {
-    for (std::uint64_t i = 0; i < count; ++i) next(type);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      next(type);
+    }
   }
   std::uint64_t bytes_left() const { return text_.bytes_left() + 1; }  // the last line end may be missing
   static std::uint64_t least_size(ScalarType) { return 2; }            // a digit and a blank
@@ -147,7 +168,9 @@ class BinaryBody {
     return load_scalar(at, type, order_);
   }
   void skip(std::uint64_t count, ScalarType type) {
-    if (count > bytes_.size() / size_of(type)) fail("the file ends here");
+    if (count > bytes_.size() / size_of(type)) {
+      fail("the file ends here");
+    }
     bytes_.remove_prefix(count * size_of(type));
   }
   std::uint64_t bytes_left() const { return bytes_.size(); }
@@ -175,17 +198,22 @@ bool is_corner_list(const Property& property) {
 class VertexColumns {
  public:
   explicit VertexColumns(const Element& element) {
-    static constexpr std::array<std::string_view, 6> names{"x", "y", "z", "nx", "ny", "nz"};
+    static constexpr std::array<std::string_view, 6> kNames{"x", "y", "z", "nx", "ny", "nz"};
     std::array<bool, 6> found{};
     for (const Property& property : element.properties) {
-      const auto* name = std::find(names.begin(), names.end(), property.name);
-      const auto column = static_cast<std::size_t>(name - names.begin());
-      const bool wanted = column < names.size() && !property.length_type && !found[column];
-      if (wanted) found[column] = true;
-      columns_.push_back(wanted ? column : unused);
+      const auto* name = std::find(kNames.begin(), kNames.end(), property.name);
+      const auto column = static_cast<std::size_t>(name - kNames.begin());
+      const bool wanted = column < kNames.size() && !property.length_type && !found[column];
+      if (wanted) {
+        found[column] = true;
+      }
+      columns_.push_back(wanted ? column : kUnused);
     }
-    for (std::size_t i = 0; i < 3; ++i)
-      if (!found[i]) throw InputError(fmt::format("its vertices have no property '{}'", names[i]));
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!found[i]) {
+        throw InputError(fmt::format("its vertices have no property '{}'", kNames[i]));
+      }
+    }
     has_normals_ = found[3] && found[4] && found[5];
   }
 
@@ -193,7 +221,7 @@ class VertexColumns {
   std::size_t column(std::size_t property) const { return columns_[property]; }
   bool has_normals() const { return has_normals_; }
 
-  static constexpr std::size_t unused = 6;
+  static constexpr std::size_t kUnused = 6;
 
  private:
   std::vector<std::size_t> columns_;
@@ -209,14 +237,21 @@ class PlyReader {
   Object read() {
     const Element* vertex = header_.find("vertex");
     const Element* face = header_.find("face");
-    if (vertex != nullptr) vertices_ = vertex->count;
+    if (vertex != nullptr) {
+      vertices_ = vertex->count;
+    }
     object_.check_vertices(vertices_);
-    if (vertices_ > 0) check_properties(*vertex);
+    if (vertices_ > 0) {
+      check_properties(*vertex);
+    }
     is_mesh_ = face != nullptr && face->count > 0 &&
                std::any_of(face->properties.begin(), face->properties.end(), is_corner_list);
-    if (const Element* strips = header_.find("tristrips"); strips != nullptr && strips->count > 0)
+    if (const Element* strips = header_.find("tristrips"); strips != nullptr && strips->count > 0) {
       throw InputError("holds triangle strips (tristrips); spincat reads PLY files with faces only");
-    for (const Element& element : header_.elements) read_element(element);
+    }
+    for (const Element& element : header_.elements) {
+      read_element(element);
+    }
     return object_.finish();
   }
 
@@ -225,14 +260,18 @@ class PlyReader {
   static void check_properties(const Element& vertex) { static_cast<void>(VertexColumns(vertex)); }
 
   void read_element(const Element& element) {
-    if (element.properties.empty()) return;
+    if (element.properties.empty()) {
+      return;
+    }
     body_.begin_row(element, 0);
     std::uint64_t least_row = 0;
-    for (const Property& property : element.properties)
+    for (const Property& property : element.properties) {
       least_row += Body::least_size(property.length_type.value_or(property.type));
-    if (element.count > body_.bytes_left() / least_row)  // NOLINT(clang-analyzer-core.DivideZero): each has a size
+    }
+    if (element.count > body_.bytes_left() / least_row) {  // NOLINT(clang-analyzer-core.DivideZero): each has a size
       body_.fail(fmt::format("announces {} x {}, more than fit into the rest of the file", element.count,
                              shown(element.name)));
+    }
     if (element.name == "vertex") {
       read_vertices(element);
     } else if (element.name == "face") {
@@ -247,7 +286,7 @@ class PlyReader {
     object_.expect_vertices(element.count);
     for (std::uint64_t row = 0; row < element.count; ++row) {
       body_.begin_row(element, row);
-      std::array<double, VertexColumns::unused + 1> values{};
+      std::array<double, VertexColumns::kUnused + 1> values{};
       for (std::size_t i = 0; i < element.properties.size(); ++i) {
         const Property& property = element.properties[i];
         if (property.length_type) {
@@ -262,7 +301,9 @@ class PlyReader {
 
   void add_vertex(const Vec3& position, const Vec3& normal, bool has_normal) {
     if (is_mesh_) {
-      if (!position.allFinite()) body_.fail("a coordinate is not finite");
+      if (!position.allFinite()) {
+        body_.fail("a coordinate is not finite");
+      }
       object_.add_vertex(position);
     } else if (has_normal) {
       object_.add_point(position, normal);
@@ -298,8 +339,9 @@ class PlyReader {
     object_.begin_face();
     for (std::uint64_t i = 0; i < corners; ++i) {
       const double index = body_.next(property.type);
-      if (!(index >= 0 && index < static_cast<double>(vertices_)) || index != std::floor(index))
+      if (!(index >= 0 && index < static_cast<double>(vertices_)) || index != std::floor(index)) {
         body_.fail(fmt::format("vertex index {} is out of range ({} vertices)", index, vertices_));
+      }
       object_.add_corner(static_cast<std::uint32_t>(index));
     }
   }
@@ -307,8 +349,9 @@ class PlyReader {
   std::uint64_t list_length(const Property& property) {
     const double length = body_.next(*property.length_type);
     const std::uint64_t most = body_.bytes_left() / Body::least_size(property.type);
-    if (!(length >= 0 && length <= static_cast<double>(most)) || length != std::floor(length))
+    if (!(length >= 0 && length <= static_cast<double>(most)) || length != std::floor(length)) {
       body_.fail(fmt::format("a list of {} values does not fit into the rest of the file", length));
+    }
     return static_cast<std::uint64_t>(length);
   }
 
@@ -325,7 +368,9 @@ class PlyReader {
   void skip_rows(const Element& element) {
     for (std::uint64_t row = 0; row < element.count; ++row) {
       body_.begin_row(element, row);
-      for (const Property& property : element.properties) skip_property(property);
+      for (const Property& property : element.properties) {
+        skip_property(property);
+      }
     }
   }
 
@@ -341,7 +386,9 @@ class PlyReader {
 Object read_ply(std::string_view bytes, const ReadLimits& limits) {
   TextCursor text(bytes, {.hash_comments = false});
   const Header header = read_header(text);
-  if (header.encoding == Encoding::ascii) return PlyReader(header, TextBody(text), limits).read();
+  if (header.encoding == Encoding::ascii) {
+    return PlyReader(header, TextBody(text), limits).read();
+  }
   const std::string_view body = bytes.substr(bytes.size() - text.bytes_left());
   const std::endian order = header.encoding == Encoding::little_endian ? std::endian::little : std::endian::big;
   return PlyReader(header, BinaryBody(body, order), limits).read();

@@ -23,7 +23,7 @@ class VertexMerger {
   std::size_t hash(const Vec3& position) const;
   void grow(const std::vector<Vec3>& vertices);
 
-  static constexpr std::uint32_t empty = 0xFFFF'FFFF;
+  static constexpr std::uint32_t kEmpty = 0xFFFF'FFFF;
 
   std::vector<std::uint32_t> slots_;  // indices into vertices, open addressing; the size is a power of two
   std::uint64_t key_;

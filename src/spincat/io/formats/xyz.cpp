@@ -18,7 +18,9 @@ namespace {
 
 std::size_t words_on_line(TextCursor text) {
   std::size_t words = 0;
-  while (!text.word().empty()) ++words;
+  while (!text.word().empty()) {
+    ++words;
+  }
   return words;
 }
 
@@ -30,9 +32,9 @@ class NormalColumns {
   bool found() const { return possible_ && seen_; }
   void rule_out() { possible_ = false; }
   void look_at(const Vec3& vector) {
-    constexpr double tolerance = 1e-2;
+    constexpr double kTolerance = 1e-2;
     const double length = vector.norm();
-    if (std::abs(length - 1) <= tolerance) {
+    if (std::abs(length - 1) <= kTolerance) {
       seen_ = true;
     } else if (std::isfinite(length) && length != 0) {
       possible_ = false;
@@ -51,34 +53,47 @@ class XyzReader {
 
   Object read() {
     read_announced_count();
-    for (; text_.word_follows(); text_.skip_line(), ++rows_) read_row();
-    if (announced_ && *announced_ > rows_)
+    for (; text_.word_follows(); text_.skip_line(), ++rows_) {
+      read_row();
+    }
+    if (announced_ && *announced_ > rows_) {
       text_.fail(fmt::format("the file ends after {} of {} points", rows_, *announced_));
-    if (!normals_.found()) object_.forget_normals();
+    }
+    if (!normals_.found()) {
+      object_.forget_normals();
+    }
     return object_.finish();
   }
 
  private:
   // A first line that is a lone number says how many points follow (.pts).
   void read_announced_count() {
-    if (!text_.word_follows() || words_on_line(text_) != 1) return;
+    if (!text_.word_follows() || words_on_line(text_) != 1) {
+      return;
+    }
     announced_ = text_.count("the number of points or three coordinates");
     text_.skip_line();
   }
 
   void read_row() {
     Vec3 point;
-    for (double& coordinate : point) coordinate = text_.number("a coordinate");
+    for (double& coordinate : point) {
+      coordinate = text_.number("a coordinate");
+    }
     if (normals_.possible() && words_on_line(text_) == 3) {
       Vec3 normal;
-      for (double& component : normal) component = text_.number("a component of a normal or of a colour");
+      for (double& component : normal) {
+        component = text_.number("a component of a normal or of a colour");
+      }
       object_.add_point(point, normal);
       normals_.look_at(normal);
     } else {
       object_.add_point(point);
       normals_.rule_out();
     }
-    if (!normals_.possible()) object_.forget_normals();
+    if (!normals_.possible()) {
+      object_.forget_normals();
+    }
   }
 
   TextCursor text_;

@@ -54,6 +54,10 @@ packages_browser=(
   python3
 )
 
+packages_docs=(
+  doxygen  # API documentation of the public headers
+)
+
 packages_bench=(
   python3  # prints the table; the race against PCL takes part where libpcl-dev is installed, too
 )

@@ -83,8 +83,8 @@ void RunOptions::add_farm_options_to(CLI::App& command) {
       ->capture_default_str();
 }
 
-Division RunOptions::division() const {
-  return divide == "images" ? Division::images : Division::sums;
+WorkSplit RunOptions::split() const {
+  return divide == "images" ? WorkSplit::return_images : WorkSplit::encode_remotely;
 }
 
 void add_report_option(CLI::App& command, std::filesystem::path& report) {

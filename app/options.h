@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "spincat/dataset/dataset.h"
-#include "spincat/describe/division.h"
+#include "spincat/execution.h"
 #include "spincat/io/read_limits.h"
 #include "spincat/settings/settings.h"
 
@@ -27,7 +27,7 @@ struct RunOptions {
   // For commands whose work is shared out to other ranks.
   void add_farm_options_to(CLI::App& command);
   int thread_count() const;
-  Division division() const;
+  WorkSplit split() const;
 };
 
 // What to learn from.

@@ -15,7 +15,6 @@
 #include "app/terminal/answer_printer.h"
 #include "app/terminal/messages.h"
 #include "app/terminal/progress_bar.h"
-#include "spincat/classify/classify_tasks.h"
 #include "spincat/dataset/object_files.h"
 #include "spincat/error.h"
 
@@ -103,7 +102,7 @@ struct Classified {
 };
 
 Classified classify_all(const Model& model, const std::vector<Input>& inputs, const ClassifyArguments& arguments,
-                        TaskFarm& farm) {
+                        const FarmRun& run) {
   std::vector<std::string> names;
   for (const Input& input : inputs) {
     names.push_back(input.file.string());
@@ -130,23 +129,19 @@ Classified classify_all(const Model& model, const std::vector<Input>& inputs, co
       print(problem_of(inputs[printed]));
     }
   };
-  std::vector<const fs::path*> files;
+  std::vector<fs::path> files;
   for (const Input& input : inputs) {
     if (input.problem.empty()) {
-      files.push_back(&input.file);
+      files.push_back(input.file);
     }
   }
-  const ClassifyJob job{model,
-                        arguments.model,
-                        files.size(),
-                        [&](std::size_t i) -> const fs::path& { return *files[i]; },
-                        arguments.run.division(),
-                        arguments.limits};
-  const auto deliver = [&](std::size_t, const Answer& answer) {
+  Execution execution = run.execution(
+      [&](std::string_view stage, std::size_t, std::size_t) { bar.update(stage, printed, inputs.size()); });
+  execution.limits = arguments.limits;
+  classify_files(model, files, execution, [&](std::size_t, const Answer& answer) {
     print_problems();
     print(answer);
-  };
-  classify_files(farm, job, deliver, [&](std::size_t) { bar.update("naming objects", printed, inputs.size()); });
+  });
   print_problems();
   bar.wipe();
   if (!arguments.run.quiet) {
@@ -170,7 +165,7 @@ int run_classify(const ClassifyArguments& arguments, TaskFarm& farm) {
   FarmRun run(farm, arguments.run);
   run.keep_journal({}, [&] { return identity_of(model, files, arguments); });
   check_report(arguments.report);
-  const auto [named, failed] = classify_all(model, files, arguments, farm);
+  const auto [named, failed] = classify_all(model, files, arguments, run);
   if (!arguments.report.empty()) {
     write_classify_report(arguments.report, arguments.model, model, named, arguments.look, arguments.limits,
                           arguments.run);

@@ -7,7 +7,7 @@
 
 #include "app/options.h"
 #include "app/terminal/answer_printer.h"
-#include "spincat/classify/classify_tasks.h"
+#include "spincat/classify/classify.h"
 #include "spincat/classify/model.h"
 
 namespace spincat::app {

@@ -61,18 +61,18 @@ DatasetOptions test_options(const EvaluateArguments& a) {
 }
 
 Evaluation run_protocol(const EvaluateArguments& a, const Settings& settings, const EvaluateOptions& options,
-                        const Progress& progress) {
+                        const Execution& execution) {
   const DatasetOptions& learn = a.dataset.options;
   if (!a.train.empty()) {
     return evaluate_across(read_dataset(a.train, learn), read_dataset(a.test, test_options(a)), settings, options,
-                           progress);
+                           execution);
   }
   const Dataset dataset = read_dataset(a.dataset.sources, learn);
   if (a.official) {
     const Dataset test = testing_part(dataset);  // first: it refuses a data set without a split
-    return evaluate_across(training_part(dataset), test, settings, options, progress);
+    return evaluate_across(training_part(dataset), test, settings, options, execution);
   }
-  return evaluate(dataset, settings, options, progress);
+  return evaluate(dataset, settings, options, execution);
 }
 
 // report.html and ".confusion.png": report.confusion.png.
@@ -109,18 +109,13 @@ int run_evaluate(const EvaluateArguments& arguments, TaskFarm& farm) {
   const Settings settings = arguments.settings.settings();
   EvaluateOptions options = arguments.options;
   options.test = arguments.tested.options();
-  options.test.limits = arguments.dataset.options.limits;
-  options.strict = arguments.dataset.strict;
   FarmRun run(farm, arguments.run);
   run.keep_journal({}, [&] {
     const TestOptions& test = options.test;
     const std::string shown = fmt::format("{} {} {} {}", static_cast<int>(test.form), test.noise, test.cloud_points,
-                                          limits_text(test.limits));
+                                          limits_text(arguments.dataset.options.limits));
     return RunIdentity{settings_identity("evaluate", settings, shown), data_identity(arguments)};
   });
-  options.threads = farm.threads();
-  options.farm = &farm;
-  options.division = arguments.run.division();
   options.unknown_objects = unknown_objects_of(arguments);
   check_report(arguments.report);
   if (!arguments.report.empty()) {
@@ -130,7 +125,10 @@ int run_evaluate(const EvaluateArguments& arguments, TaskFarm& farm) {
   Evaluation evaluation;
   {
     ProgressBar bar(arguments.run);
-    evaluation = run_protocol(arguments, settings, options, bar.callback());
+    Execution execution = run.execution(bar.callback());
+    execution.strict = arguments.dataset.strict;
+    execution.limits = arguments.dataset.options.limits;
+    evaluation = run_protocol(arguments, settings, options, execution);
   }
   report_left_out(evaluation.left_out, arguments.run);
   report_skipped(evaluation.skipped, arguments.run);

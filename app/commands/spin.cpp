@@ -113,7 +113,7 @@ void write_images(const SpinArguments& arguments, TaskFarm& farm, const DenseObj
 // One feature vector of all images.
 void write_features(const SpinArguments& arguments, TaskFarm& farm, const DenseObject& object, ProgressBar& bar) {
   const auto tick = [&](std::size_t done) { bar.update("making spin images", done, object.spin_points.size()); };
-  const FeatureVector features = encode_object(farm, object, arguments.encoding, arguments.run.division(), tick);
+  const FeatureVector features = encode_object(farm, object, arguments.encoding, arguments.run.split(), tick);
   OutputFile out(arguments.output);
   out.write(npy_header(std::array<std::size_t, 1>{features.values.size()}));
   out.write(as_bytes(features.values));

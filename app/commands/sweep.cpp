@@ -62,11 +62,7 @@ int run_sweep(const SweepArguments& arguments, TaskFarm& farm) {
   const Settings settings = arguments.settings.settings();
   EvaluateOptions options = arguments.options;
   options.test = arguments.tested.options();
-  options.test.limits = arguments.dataset.options.limits;
-  options.strict = arguments.dataset.strict;
   FarmRun run(farm, arguments.run);  // a sweep keeps a journal of its own
-  options.threads = farm.threads();
-  options.farm = &farm;
   std::vector<Variation> variations;
   for (const std::string& text : arguments.vary) {
     variations.push_back(parse_variation(text));
@@ -82,7 +78,10 @@ int run_sweep(const SweepArguments& arguments, TaskFarm& farm) {
   Sweep found;
   {
     ProgressBar bar(arguments.run);
-    found = sweep(dataset, settings, variations, options, journal, bar.callback());
+    Execution execution = run.execution(bar.callback());
+    execution.strict = arguments.dataset.strict;
+    execution.limits = arguments.dataset.options.limits;
+    found = sweep(dataset, settings, variations, options, execution, journal);
   }
   const std::string json = sweep_json(found, settings, options, command_line()) + "\n";
   if (!arguments.output.empty()) {

@@ -61,8 +61,9 @@ int run_train(const TrainArguments& arguments, TaskFarm& farm) {
   TrainResult result;
   {
     ProgressBar bar(arguments.run);
-    const TrainOptions options{arguments.dataset.strict, farm.threads(), &farm, arguments.run.division()};
-    result = train(dataset, settings, options, bar.callback());
+    Execution execution = run.execution(bar.callback());
+    execution.strict = arguments.dataset.strict;
+    result = train(dataset, settings, execution);
   }
   write_model(arguments.output, result.model);
   run.finish();

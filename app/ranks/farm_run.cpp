@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <string_view>
+#include <utility>
 
 #include "app/terminal/messages.h"
 #include "spincat/error.h"
@@ -56,7 +57,7 @@ void FarmRun::keep_journal(const fs::path& output, const std::function<RunIdenti
   if (file.empty()) {
     return;
   }
-  // The other division cuts the work into other tasks.
+  // The other split cuts the work into other tasks.
   RunIdentity whose = identity();
   whose.settings += " " + run_.divide;
   const auto go_on_without = [](const RunError& problem) {
@@ -79,6 +80,15 @@ void FarmRun::keep_journal(const fs::path& output, const std::function<RunIdenti
   if (found_ > 0 && !run_.quiet) {
     message(fmt::format("{}: has {}", file.string(), finished_tasks(found_)));
   }
+}
+
+Execution FarmRun::execution(Progress progress) const {
+  Execution execution;
+  execution.threads = farm_.threads();
+  execution.farm = &farm_;
+  execution.split = run_.split();
+  execution.progress = std::move(progress);
+  return execution;
 }
 
 void FarmRun::finish() {

@@ -8,12 +8,9 @@
 #include <string>
 
 #include "app/options.h"
+#include "spincat/execution.h"
 #include "spincat/parallel/journal.h"
 #include "spincat/settings/settings.h"
-
-namespace spincat {
-class TaskFarm;
-}
 
 namespace spincat::app {
 
@@ -30,6 +27,9 @@ class FarmRun {
   // and that cannot be written: then he is told, and there is none.
   // `identity` is only asked for where there is a journal.
   void keep_journal(const std::filesystem::path& output, const std::function<RunIdentity()>& identity);
+
+  // This farm, with what the user said about splitting the work.
+  Execution execution(Progress progress) const;
 
   // The result is where it should be: the journal goes, and one line tells how the work was shared out.
   void finish();

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "spincat/classify/classify_tasks.h"
+#include "spincat/classify/classify.h"
 #include "spincat/classify/model.h"
 
 namespace spincat::app {

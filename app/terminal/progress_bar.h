@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "app/options.h"
-#include "spincat/describe/progress.h"
+#include "spincat/execution.h"
 
 namespace spincat::app {
 

@@ -28,7 +28,7 @@ Dataset part_of(const Dataset& objects, std::span<const std::uint32_t> which) {
 Model views_model(const Dataset& objects, const SceneOptions& options) {
   Settings settings = trained_by_views(preset("default"), options.views);
   settings.up = options.up;
-  return train(objects, settings, {false, options.threads}).model;
+  return train(objects, settings, {.threads = options.threads}).model;
 }
 
 SceneView MadeScene::frame(double further) const {

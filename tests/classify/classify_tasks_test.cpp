@@ -1,7 +1,6 @@
-#include "spincat/classify/classify_tasks.h"
-
 #include <gtest/gtest.h>
 
+#include "spincat/classify/classify.h"
 #include "spincat/dataset/dataset.h"
 #include "spincat/evaluate/evaluate.h"
 #include "spincat/parallel/journal.h"
@@ -16,7 +15,6 @@ namespace {
 TEST(ClassifyFiles, ProblemsAreInNoJournal) {
   test::TempDir dir;
   test::write_tiny_shapes(dir, "shapes", 4);
-  const std::filesystem::path model_file = dir / "shapes.spincat";
   const Model model = train(read_dataset({dir / "shapes"}), test::tiny_settings(), {}).model;
   dir.write("shapes/box/broken.off", "OFF\nnothing");
   const Dataset shapes = read_dataset({dir / "shapes"});
@@ -24,17 +22,19 @@ TEST(ClassifyFiles, ProblemsAreInNoJournal) {
   Journal journal(dir / "j", {"settings", "data"});
   LocalFarm own(1);
   own.farm().use_journal(&journal);
-  const ClassifyJob job{model, model_file, shapes.objects.size(),
-                        [&](std::size_t i) -> const std::filesystem::path& { return shapes.objects[i].file; }};
+  std::vector<std::filesystem::path> files;
+  for (const DatasetObject& object : shapes.objects) {
+    files.push_back(object.file);
+  }
+  const Execution execution{.farm = &own.farm()};
   std::size_t problems = 0;
-  classify_files(own.farm(), job, [&](std::size_t, const Answer& answer) { problems += answer.error.empty() ? 0 : 1; },
-                 {});
+  classify_files(model, files, execution,
+                 [&](std::size_t, const Answer& answer) { problems += answer.error.empty() ? 0 : 1; });
   EXPECT_EQ(problems, 1U);
   EXPECT_EQ(journal.size(), 12U);
   EvaluateOptions options;
-  options.farm = &own.farm();
   options.test.form = TestForm::turned;
-  describe_for_evaluation(shapes, test::tiny_settings(), options);
+  describe_for_evaluation(shapes, test::tiny_settings(), options, execution);
   EXPECT_EQ(journal.size(), 3U * 12U);  // to learn from, and as they are tested
 }
 

@@ -27,7 +27,7 @@ const Model& views_model() {
     test::write_tiny_shapes(dir, "shapes", 4);
     Settings settings = trained_by_views(test::tiny_settings(), 6);
     settings.up = UpAxis::z;
-    return train(read_dataset({dir / "shapes"}), settings, {false, 2}).model;
+    return train(read_dataset({dir / "shapes"}), settings, {.threads = 2}).model;
   }();
   return model;
 }

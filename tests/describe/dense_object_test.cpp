@@ -34,9 +34,9 @@ TEST_F(DenseObjects, AJournalKeepsSumsAndWantedImagesAlone) {
   LocalFarm own(1);
   own.farm().use_journal(&journal);
   const std::string encoding = settings().encoding;
-  const FeatureVector of_images = encode_object(own.farm(), object(), encoding, Division::images, {});
+  const FeatureVector of_images = encode_object(own.farm(), object(), encoding, WorkSplit::return_images, {});
   EXPECT_EQ(journal.size(), 0U);
-  const FeatureVector of_sums = encode_object(own.farm(), object(), encoding, Division::sums, {});
+  const FeatureVector of_sums = encode_object(own.farm(), object(), encoding, WorkSplit::encode_remotely, {});
   EXPECT_EQ(journal.size(), 3U);
   EXPECT_EQ(of_images.values, of_sums.values);
   make_spin_images(own.farm(), object(), [](std::size_t, std::span<const float>) {}, {});

@@ -108,7 +108,7 @@ TEST_F(ListedObjects, MustBeRegularFilesToBeDescribed) {
   LocalFarm farm(2);
   const Settings settings = test::tiny_settings();
   const auto file = [&](std::size_t i) -> const fs::path& { return files_[i]; };
-  const DescribeJob job{files_.size(), file, settings, 1, Division::sums, {}, {}};
+  const DescribeJob job{files_.size(), file, settings, 1, WorkSplit::encode_remotely, {}, {}};
   std::vector<std::string> problems;
   describe_files(farm.farm(), job,
                  [&](std::size_t, const Described& described, std::span<const FeatureBytes>) {
@@ -119,14 +119,13 @@ TEST_F(ListedObjects, MustBeRegularFilesToBeDescribed) {
 }
 
 TEST_F(ListedObjects, MustBeRegularFilesToBeTested) {
-  LocalFarm farm(2);
   std::vector<DatasetObject> objects;
   for (const fs::path& file : files_) {
     objects.push_back({file, 0, ""});
   }
   const Settings settings = test::tiny_settings();
   const std::size_t length = describe(test::box(), settings, 0).values.size();
-  EXPECT_EQ(describe_tested(objects, length, settings, {}, farm.farm(), {}).problems, problems_);
+  EXPECT_EQ(describe_tested(objects, length, settings, {}, {.threads = 2}).problems, problems_);
 }
 
 }  // namespace

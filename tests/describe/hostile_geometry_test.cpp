@@ -80,7 +80,7 @@ const Model& model_for(const std::string& name) {
   if (!models.contains(name)) {
     const test::TempDir dir;
     test::write_tiny_shapes(dir, "shapes", 3);
-    models[name] = train(read_dataset({dir / "shapes"}), all_settings().at(name), {false, 2}).model;
+    models[name] = train(read_dataset({dir / "shapes"}), all_settings().at(name), {.threads = 2}).model;
   }
   return models[name];
 }
@@ -145,7 +145,7 @@ TEST_P(Hostile, GeometryAmongTheTrainingObjectsTrainsFiniteJudges) {
     }
   }
   const Dataset dataset = read_dataset({dir / "shapes"});
-  const TrainResult result = train(dataset, settings, {false, 2});
+  const TrainResult result = train(dataset, settings, {.threads = 2});
   if (settings.trained_for != TrainedFor::views) {
     EXPECT_EQ(result.skipped.size(), refused);
   }
@@ -154,9 +154,8 @@ TEST_P(Hostile, GeometryAmongTheTrainingObjectsTrainsFiniteJudges) {
   expect_valid(classify(model, test::box()), 5, GetParam());
   EvaluateOptions options;
   options.splits = 2;
-  options.threads = 2;
   options.measure_confidence = true;
-  const Evaluation evaluation = evaluate(dataset, settings, options);
+  const Evaluation evaluation = evaluate(dataset, settings, options, {.threads = 2});
   EXPECT_TRUE(std::isfinite(evaluation.mean_class_rate.mean));
   EXPECT_TRUE(std::isfinite(evaluation.confidence->right_or_wrong));
   EXPECT_TRUE(std::isfinite(evaluation.confidence->mean_confidence));

@@ -102,13 +102,12 @@ Settings fewer_copies(int copies) {
 double rate(const Dataset& dataset, const Settings& settings) {
   EvaluateOptions options;
   options.splits = 5;
-  options.threads = 2;
-  return evaluate(dataset, settings, options).mean_class_rate.mean;
+  return evaluate(dataset, settings, options, {.threads = 2}).mean_class_rate.mean;
 }
 
 // The share of objects that are named right by judges trained on half of the objects, shown to them as noisy clouds.
 double cloud_rate(const Dataset& dataset, const Settings& settings) {
-  const FeatureTable table = describe_dataset(dataset, settings, true, 2, {});
+  const FeatureTable table = describe_dataset(dataset, settings, {.threads = 2, .strict = true});
   const std::vector<std::uint32_t> labels = table.object_labels();
   const Split split = stratified_splits(labels, 1, 0.5, 1)[0];
   LocalFarm farm(2);

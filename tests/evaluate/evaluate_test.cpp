@@ -41,8 +41,7 @@ TEST_F(Protocols, LeaveOneOutTestsEachObjectOnce) {
   EvaluateOptions options;
   options.leave_one_out = true;
   const Evaluation one = evaluate(shapes(), tiny_settings(), options);
-  options.threads = 3;
-  const Evaluation three = evaluate(shapes(), tiny_settings(), options);
+  const Evaluation three = evaluate(shapes(), tiny_settings(), options, {.threads = 3});
   EXPECT_EQ(one.protocol, Protocol::leave_one_out);
   EXPECT_EQ(one.confusion, three.confusion);
   ASSERT_EQ(one.confusion.size(), 3U);
@@ -162,15 +161,13 @@ TEST_F(Protocols, AcrossDoesNotDependOnThreadsAndSkipsWhatCannotBeRead) {
   const Dataset others = read_dataset({dir_ / "others"});
   EvaluateOptions options;
   const Evaluation one = evaluate_across(shapes(), others, tiny_settings(), options);
-  options.threads = 3;
-  const Evaluation three = evaluate_across(shapes(), others, tiny_settings(), options);
+  const Evaluation three = evaluate_across(shapes(), others, tiny_settings(), options, {.threads = 3});
   EXPECT_EQ(one.confusion, three.confusion);
   EXPECT_EQ(one.test_object_counts, (std::vector<std::uint32_t>{2, 2, 2}));
   ASSERT_EQ(one.skipped.size(), 1U);
   EXPECT_EQ(one.skipped[0].file, broken);
-  options.strict = true;
   EXPECT_EQ(input_error([&] {
-              evaluate_across(shapes(), others, tiny_settings(), options);
+              evaluate_across(shapes(), others, tiny_settings(), options, {.threads = 3, .strict = true});
             }).rfind(broken.string() + ": ", 0),
             0U);
 }
@@ -205,8 +202,7 @@ TEST_F(Protocols, ConfidenceIsMeasuredOnKnownAndUnknownObjects) {
   EXPECT_FALSE(evaluate(shapes(), tiny_settings(), options).confidence.has_value());
   options.unknown_objects = {dir_.write("ball.off", test::off_text(test::icosphere(2))), dir_ / "absent.off"};
   const Evaluation one = evaluate(shapes(), tiny_settings(), options);
-  options.threads = 3;
-  const Evaluation three = evaluate(shapes(), tiny_settings(), options);
+  const Evaluation three = evaluate(shapes(), tiny_settings(), options, {.threads = 3});
   ASSERT_TRUE(one.confidence && three.confidence);
   EXPECT_EQ(one.confidence->unknown_objects, 1U);
   EXPECT_EQ(one.confidence->known_or_unknown, three.confidence->known_or_unknown);
@@ -229,9 +225,7 @@ TEST_F(Protocols, AJournalKeepsSplitsForTheSameDataAndSettings) {
   const auto resumed = [&](const Progress& progress = {}) {
     LocalFarm own(2);
     own.farm().use_journal(&journal);
-    EvaluateOptions with_farm = options;
-    with_farm.farm = &own.farm();
-    found = judge_evaluation(data, settings, with_farm, progress);
+    found = judge_evaluation(data, settings, options, {.farm = &own.farm(), .progress = progress});
     return own.farm().report().resumed;
   };
   const Progress stop = [](std::string_view stage, std::size_t done, std::size_t) {

@@ -48,7 +48,7 @@ class Sweeps : public testing::Test {
 
   Dataset shapes() const { return read_dataset({dir_ / "shapes"}); }
   Sweep swept(const std::filesystem::path& journal, const Progress& progress = {}) const {
-    return sweep(shapes(), tiny_settings(), kVariations, options_, journal, progress);
+    return sweep(shapes(), tiny_settings(), kVariations, options_, {.progress = progress}, journal);
   }
 
   TempDir dir_;
@@ -116,8 +116,8 @@ TEST_F(Sweeps, TheJournalOfAnotherSweepIsRefused) {
   swept(journal);
   const std::string bytes = read_file(journal);
   const auto refusal = [&](const Settings& settings, const EvaluateOptions& options, const Dataset& dataset,
-                           const std::vector<Variation>& variations) {
-    return input_error([&] { sweep(dataset, settings, variations, options, journal); });
+                           const std::vector<Variation>& variations, int threads = 1) {
+    return input_error([&] { sweep(dataset, settings, variations, options, {.threads = threads}, journal); });
   };
   const std::string is = journal.string() + ": is the journal of another sweep (";
   Settings settings = tiny_settings();
@@ -131,8 +131,7 @@ TEST_F(Sweeps, TheJournalOfAnotherSweepIsRefused) {
   EXPECT_EQ(refusal(tiny_settings(), options_, dataset, kVariations).rfind(is + "data set differs)", 0), 0U);
   EXPECT_EQ(refusal(tiny_settings(), options_, shapes(), {{"c", {"3"}}}).rfind(is, 0), 0U);
   options = options_;
-  options.threads = 3;
-  EXPECT_EQ(refusal(tiny_settings(), options, shapes(), kVariations), "no error");
+  EXPECT_EQ(refusal(tiny_settings(), options, shapes(), kVariations, 3), "no error");
   EXPECT_EQ(read_file(journal), bytes);
 }
 
@@ -202,7 +201,7 @@ TEST_F(Sweeps, TheJournalOfAnOlderSpincatIsRefused) {
 TEST_F(Sweeps, ImpossibleSweepsAreRefusedBeforeAnyWork) {
   const Progress never = [](std::string_view, std::size_t, std::size_t) { FAIL() << "work before the refusal"; };
   const auto refusal = [&](const std::vector<Variation>& variations) {
-    return input_error([&] { sweep(shapes(), tiny_settings(), variations, options_, {}, never); });
+    return input_error([&] { sweep(shapes(), tiny_settings(), variations, options_, {.progress = never}); });
   };
   EXPECT_EQ(refusal({}), "a sweep takes 1 to 10000 points, not 1");
   EXPECT_EQ(refusal({{"c", {"1"}}, {"judge.c", {"2"}}}), "setting 'judge.c' is varied twice");

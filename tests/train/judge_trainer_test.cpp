@@ -182,8 +182,8 @@ TEST(Training, RanksKeepATableForAnotherTrainer) {
   ServingRanks ranks(kRanks);
   {
     TaskFarm farm(ranks.communicator());
-    const FeatureTable table = describe_dataset(read_dataset({dir / "shapes"}), test::tiny_settings(), false, farm,
-                                                Division::sums, kWorthBroadcasting, {});
+    const FeatureTable table =
+        describe_dataset(read_dataset({dir / "shapes"}), test::tiny_settings(), {.farm = &farm}, kWorthBroadcasting);
     ASSERT_EQ(table.described_as.size(), 12U);
     std::vector<std::uint32_t> objects(12);
     std::iota(objects.begin(), objects.end(), 0U);

@@ -95,8 +95,7 @@ std::string model_bytes(const Model& model) {
 Evaluation evaluated(const Settings& settings, int threads) {
   EvaluateOptions options;
   options.splits = 3;
-  options.threads = threads;
-  return evaluate(shapes(), settings, options);
+  return evaluate(shapes(), settings, options, {.threads = threads});
 }
 
 TEST(Describe, AStretchedCopyIsAnother) {
@@ -152,10 +151,8 @@ TEST(PrepareObject, GivesTheBinSizeInTheUnitOfPreparedPoints) {
 class Preset : public testing::TestWithParam<const char*> {};
 
 TEST_P(Preset, TrainsTheSameBytesOnAnyNumberOfThreads) {
-  TrainOptions options;
-  const TrainResult one = train(shapes(), small_settings(GetParam()), options);
-  options.threads = 3;
-  const TrainResult three = train(shapes(), small_settings(GetParam()), options);
+  const TrainResult one = train(shapes(), small_settings(GetParam()));
+  const TrainResult three = train(shapes(), small_settings(GetParam()), {.threads = 3});
   EXPECT_EQ(model_bytes(one.model), model_bytes(three.model));
   EXPECT_TRUE(one.skipped.empty());
   EXPECT_EQ(one.model.categories, (std::vector<std::string>{"ball", "box", "cone", "spindle"}));
@@ -214,7 +211,7 @@ TEST(Train, SkipsAndListsWhatCannotBeRead) {
   dataset.objects.push_back({dir / "none.off", 0, ""});
   dataset.objects.push_back({dir.write("point.off", "OFF 2 0 0\n1 1 1\n1 1 1\n"), 2, ""});
   for (const int threads : {1, 3}) {
-    const TrainResult result = train(dataset, small_settings(), {false, threads});
+    const TrainResult result = train(dataset, small_settings(), {.threads = threads});
     ASSERT_EQ(result.skipped.size(), 3U);
     EXPECT_EQ(result.skipped[0].file, dir / "bad.off");
     EXPECT_EQ(result.skipped[1].file, dir / "none.off");
@@ -230,9 +227,7 @@ TEST(Train, StrictThrowsTheFirstThatCannotBeRead) {
   dataset.objects.insert(dataset.objects.begin() + 3, {dir.write("point.off", "OFF 2 0 0\n1 1 1\n1 1 1\n"), 2, ""});
   dataset.objects.insert(dataset.objects.begin() + 4, {dir / "none.off", 2, ""});
   for (const int threads : {1, 4}) {
-    EXPECT_EQ(input_error([&] {
-                train(dataset, small_settings(), {true, threads});
-              }),
+    EXPECT_EQ(input_error([&] { train(dataset, small_settings(), {.threads = threads, .strict = true}); }),
               (dir / "point.off").string() + ": all its points are at one place");
   }
 }
@@ -271,9 +266,7 @@ TEST(Train, LeavesOutObjectsWithFewerConcatenatedImages) {
   ASSERT_EQ(result.skipped.size(), 3U);
   EXPECT_EQ(result.skipped[0].reason, "gives 256 features where others give 3072");
   EXPECT_EQ(result.model.feature_length(), 3072U);
-  EXPECT_EQ(input_error([&] {
-              train(dataset, settings, {true, 1});
-            }),
+  EXPECT_EQ(input_error([&] { train(dataset, settings, {.threads = 1, .strict = true}); }),
             small.string() + ": gives 256 features where others give 3072");
   EXPECT_EQ(input_error([&] { classify_file(result.model, small); }),
             small.string() + ": gives 256 features where the model expects 3072");
@@ -284,7 +277,8 @@ TEST(Train, RefusesSettingsBeforeAnyWork) {
   settings.copies = -1;
   bool started = false;
   EXPECT_EQ(input_error([&] {
-              train(shapes(), settings, {}, [&](std::string_view, std::size_t, std::size_t) { started = true; });
+              train(shapes(), settings,
+                    {.progress = [&](std::string_view, std::size_t, std::size_t) { started = true; }});
             }),
             "number of copies -1 is out of range (0 to 100)");
   EXPECT_FALSE(started);
@@ -302,15 +296,15 @@ TEST(Progress, NeverFallsAndReachesTheTotalNeverTwoAtATime) {
     all = total;
     mutex.unlock();
   };
-  train(shapes(), small_settings("paper"), {false, 3}, progress);
+  train(shapes(), small_settings("paper"), {.threads = 3, .progress = progress});
   EvaluateOptions options;
   options.splits = 2;
   evaluate(shapes(), small_settings("paper"), options,
-           [&](std::string_view stage, std::size_t done, std::size_t total) {
+           {.progress = [&](std::string_view stage, std::size_t done, std::size_t total) {
              if (stage == "judging splits") {
                progress(stage, done, total);
              }
-           });
+           }});
   EXPECT_EQ(stages.size(), 4U);
   for (const auto& [stage, counts] : stages) {
     EXPECT_EQ(counts.first, counts.second) << stage;
@@ -326,7 +320,8 @@ TEST(Progress, AnExceptionEndsTheWorkInAnyStage) {
           throw Interrupted();
         }
       };
-      EXPECT_THROW(train(shapes(), small_settings("paper"), {false, threads}, progress), Interrupted) << stage;
+      EXPECT_THROW(train(shapes(), small_settings("paper"), {.threads = threads, .progress = progress}), Interrupted)
+          << stage;
     }
   }
 }
@@ -409,7 +404,7 @@ TEST(TrainForAny, NamesCloudsAsWell) {
   Settings settings = small_settings();
   settings.copies = 2;
   settings.trained_for = TrainedFor::any;
-  const Model model = train(shapes(), settings, {false, 2}).model;
+  const Model model = train(shapes(), settings, {.threads = 2}).model;
   int right = 0;
   for (const DatasetObject& object : shapes().objects) {
     const Object cloud = as_cloud(read_object(object.file), 400, 0.005, 77);
@@ -422,7 +417,7 @@ TEST(TrainJudges, TestObjectsDoNotInfluenceTheCodebook) {
   Settings settings = small_settings();
   settings.encoding = "bag-of-features";
   settings.words = 8;
-  FeatureTable table = describe_dataset(shapes(), settings, true, 2, {});
+  FeatureTable table = describe_dataset(shapes(), settings, {.threads = 2, .strict = true});
   std::vector<std::uint32_t> train;
   for (std::uint32_t object = 0; object < table.objects.size(); ++object) {
     if (object % 3 != 0) {
@@ -457,8 +452,8 @@ TEST_P(Variant, FindsEasyShapesAndKeepsItsModel) {
   settings.judge.kernel = GetParam().second;
   settings.judge.c = default_c(settings.judge.kernel);
   EXPECT_GE(evaluated(settings, 2).mean_class_rate.mean, 0.6);
-  const Model model = train(shapes(), settings, {false, 1}).model;
-  EXPECT_EQ(model_bytes(train(shapes(), settings, {false, 3}).model), model_bytes(model));
+  const Model model = train(shapes(), settings, {.threads = 1}).model;
+  EXPECT_EQ(model_bytes(train(shapes(), settings, {.threads = 3}).model), model_bytes(model));
   const TempDir dir;
   write_model(dir / "m.spincat", model);
   const Model back = read_model(dir / "m.spincat");
@@ -524,7 +519,7 @@ TEST(Evaluate, OptionsOutOfRangeAreRefused) {
     bool started = false;
     EXPECT_NE(input_error([&] {
                 evaluate(shapes(), small_settings(), options,
-                         [&](std::string_view, std::size_t, std::size_t) { started = true; });
+                         {.progress = [&](std::string_view, std::size_t, std::size_t) { started = true; }});
               }).find("test share"),
               std::string::npos);
     EXPECT_FALSE(started) << "hours of work before the refusal";

@@ -92,7 +92,7 @@ TEST(DescribeViews, FollowTheModelsOwnUpAxis) {
 }
 
 TEST_F(Views, TrainedJudgesNameNewViews) {
-  const Model model = train(shapes(), view_settings(4), {false, 2}).model;
+  const Model model = train(shapes(), view_settings(4), {.threads = 2}).model;
   EXPECT_EQ(model.kinds.meshes, 12U);
   EXPECT_EQ(model.kinds.clouds, 0U);
   EXPECT_EQ(model.familiarity.labels.size(), 48U);
@@ -110,7 +110,7 @@ TEST_F(Views, TrainedJudgesNameNewViews) {
 
 TEST_F(Views, TheModelDoesNotDependOnThreads) {
   const auto bytes = [&](int threads) {
-    write_model(dir_ / "m.spincat", train(shapes(), view_settings(3), {false, threads}).model);
+    write_model(dir_ / "m.spincat", train(shapes(), view_settings(3), {.threads = threads}).model);
     return read_file(dir_ / "m.spincat");
   };
   EXPECT_EQ(bytes(1), bytes(3));

@@ -1,11 +1,16 @@
 // Naming: from an object and a model to a ballot.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
 #include <string>
 
 #include "spincat/classify/model.h"
 #include "spincat/describe/describe.h"
+#include "spincat/execution.h"
 #include "spincat/geometry/object.h"
 #include "spincat/io/read_limits.h"
 #include "spincat/judge/ballot.h"
@@ -26,5 +31,17 @@ Classification classify(const Model& model, const Object& object, const EncodePr
 // The same for an object in a file; what is thrown names the file.
 Classification classify_file(const Model& model, const std::filesystem::path& file, const ReadLimits& limits = {},
                              const EncodePrepared& elsewhere = {});
+
+// What became of one file.
+struct Answer {
+  std::optional<Classification> classification;
+  std::string error;  // the whole line, when there is no classification
+};
+
+// Names every file and hands the answers on in order, on the calling thread. Objects with many spin points, or all of
+// them where the split is `return_images`, are shared out by their spin points. The answers are the same for any number
+// of threads and ranks; their times are not. What is wrong with a file is its answer, and never an error.
+void classify_files(const Model& model, std::span<const std::filesystem::path> files, const Execution& execution,
+                    const std::function<void(std::size_t i, const Answer& answer)>& deliver);
 
 }  // namespace spincat

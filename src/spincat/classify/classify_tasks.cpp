@@ -6,11 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "spincat/classify/classify.h"
 #include "spincat/describe/describe_tasks.h"
 #include "spincat/describe/packed_features.h"
 #include "spincat/describe/packed_limits.h"
 #include "spincat/describe/rank_problems.h"
 #include "spincat/error.h"
+#include "spincat/parallel/farm_execution.h"
 #include "spincat/parallel/packing.h"
 
 namespace spincat {
@@ -69,35 +71,33 @@ Work make_classify_work(std::string_view context) {
       [model, limits](std::string_view file) { return pack(answer_for(*model, std::filesystem::path(file), limits)); });
 }
 
-void classify_files(TaskFarm& farm, const ClassifyJob& job, const std::function<void(std::size_t i, Answer)>& deliver,
-                    const TaskFarm::Tick& tick) {
-  if (shares_out_points(job.model.settings, job.division)) {
-    for (std::size_t i = 0; i < job.files; ++i) {
-      const EncodePrepared elsewhere = encode_on(farm, job.model.settings, job.division, [&](std::size_t) {
-        if (tick) {
-          tick(i);
-        }
-      });
-      deliver(i, answer_for(job.model, job.file(i), job.limits, elsewhere));
+void classify_files(const Model& model, std::span<const std::filesystem::path> files, const Execution& execution,
+                    const std::function<void(std::size_t i, const Answer& answer)>& deliver) {
+  const FarmExecution run(execution);
+  const TaskFarm::Tick tick = run.ticking("naming objects", files.size());
+  if (shares_out_points(model.settings, run.split)) {
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      const EncodePrepared elsewhere = encode_on(*run.farm, model.settings, run.split, [&](std::size_t) { tick(i); });
+      deliver(i, answer_for(model, files[i], run.limits, elsewhere));
     }
+    tick(files.size());
     return;
   }
   Job tasks;
   tasks.kind = kClassifyTasks;
+  tasks.stays_here = model.file.empty();
   tasks.context = [&](Packer& packer) {
-    pack_limits(packer, job.limits);
-    packer.add_rest(job.model_file.string());
+    pack_limits(packer, run.limits);
+    packer.add_rest(model.file.string());
   };
-  tasks.work = [&](std::string_view file) {
-    return pack(answer_for(job.model, std::filesystem::path(file), job.limits));
-  };
+  tasks.work = [&](std::string_view file) { return pack(answer_for(model, std::filesystem::path(file), run.limits)); };
   tasks.is_worth_keeping = has_no_problem;
-  tasks.tasks = job.files;
-  tasks.task = [&](std::size_t i) { return job.file(i).string(); };
+  tasks.tasks = files.size();
+  tasks.task = [&](std::size_t i) { return files[i].string(); };
   tasks.deliver = [&](std::size_t i, const std::string& result) {
-    deliver(i, unpack_answer(result, job.model.categories.size()));
+    deliver(i, unpack_answer(result, model.categories.size()));
   };
-  farm.run(tasks, tick);
+  run.farm->run(tasks, tick);
 }
 
 }  // namespace spincat

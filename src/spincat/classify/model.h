@@ -30,6 +30,7 @@ struct Model {
   std::vector<std::uint32_t> object_counts;  // n: training objects of each category, copies not counted
   KindCounts kinds;                          // of the training objects
   std::string made_by;                       // "spincat 0.1.0"
+  std::filesystem::path file;                // it was read from; empty for one that was trained here
 
   std::size_t feature_length() const { return judges.feature_length(); }
 };

@@ -279,7 +279,9 @@ void write_model(const std::filesystem::path& file, const Model& model) {
 Model read_model(const std::filesystem::path& file) {
   const std::string bytes = read_file(file);
   try {
-    return model_from_json(unpack_record(bytes, "model", kModelVersion, kOldestModelVersion));
+    Model model = model_from_json(unpack_record(bytes, "model", kModelVersion, kOldestModelVersion));
+    model.file = file;
+    return model;
   } catch (const InputError& error) {
     throw InputError(file.string(), error.problem());
   }

@@ -161,13 +161,13 @@ void make_spin_images(TaskFarm& farm, const DenseObject& object,
   share_out_images(farm, object, true, consume, tick);
 }
 
-FeatureVector encode_object(TaskFarm& farm, const DenseObject& object, std::string_view encoding_name,
-                            Division division, const TaskFarm::Tick& tick) {
+FeatureVector encode_object(TaskFarm& farm, const DenseObject& object, std::string_view encoding_name, WorkSplit split,
+                            const TaskFarm::Tick& tick) {
   const auto encoding = make_encoding(encoding_name);
   encoding->check(object.params);
   const std::unique_ptr<Encoding::ObjectSums> object_sums =
       encoding->begin(object.surface, object.spin_points, object.params);
-  if (division == Division::images || !encoding->pools() || object.spin_points.empty()) {
+  if (split == WorkSplit::return_images || !encoding->pools() || object.spin_points.empty()) {
     BlockSums sums(*object_sums);
     const auto add = [&](const SpinImageBlock& block) { sums.add(block); };
     // Not in the journal: gigabytes of images that nobody asked for, to save a feature vector.

@@ -5,8 +5,8 @@
 #include <span>
 #include <string_view>
 
-#include "spincat/describe/division.h"
 #include "spincat/encode/feature_vector.h"
+#include "spincat/execution.h"
 #include "spincat/geometry/oriented_points.h"
 #include "spincat/parallel/task.h"
 #include "spincat/parallel/task_farm.h"
@@ -33,9 +33,9 @@ void make_spin_images(TaskFarm& farm, const DenseObject& object,
                       const std::function<void(std::size_t first, std::span<const float> images)>& consume,
                       const TaskFarm::Tick& tick);
 
-// The feature vector of the object, as describe() makes it. With Division::images no journal keeps the images. Throws
-// InputError when there is no such encoding or it cannot work on such images.
-FeatureVector encode_object(TaskFarm& farm, const DenseObject& object, std::string_view encoding, Division division,
+// The feature vector of the object, as describe() makes it. With WorkSplit::return_images no journal keeps the images.
+// Throws InputError when there is no such encoding or it cannot work on such images.
+FeatureVector encode_object(TaskFarm& farm, const DenseObject& object, std::string_view encoding, WorkSplit split,
                             const TaskFarm::Tick& tick);
 
 // The work of both, for other ranks.

@@ -52,7 +52,7 @@ void describe_by_points(TaskFarm& farm, const DescribeJob& job, const DeliverDes
       tick(done);
     }
   };
-  const EncodePrepared elsewhere = encode_on(farm, job.settings, job.division, at_work);
+  const EncodePrepared elsewhere = encode_on(farm, job.settings, job.split, at_work);
   for (std::size_t i = 0; i < job.files; ++i) {
     Described one =
         described_file(job.file(i), job.views, job.limits, [&](const Object& object, int copy, StageSeconds& seconds) {
@@ -134,15 +134,15 @@ Described unpack_described(std::string_view bytes) {
   return described;
 }
 
-bool shares_out_points(const Settings& settings, Division division) {
+bool shares_out_points(const Settings& settings, WorkSplit split) {
   const bool dense = settings.prepare.spin_points >= kDenseSpinPoints && make_encoding(settings.encoding)->pools();
-  return dense || division == Division::images;
+  return dense || split == WorkSplit::return_images;
 }
 
-EncodePrepared encode_on(TaskFarm& farm, const Settings& settings, Division division, const TaskFarm::Tick& tick) {
-  return [&farm, &settings, division, tick](const Preparation& prepared) {
+EncodePrepared encode_on(TaskFarm& farm, const Settings& settings, WorkSplit split, const TaskFarm::Tick& tick) {
+  return [&farm, &settings, split, tick](const Preparation& prepared) {
     const DenseObject dense{prepared.object.surface, prepared.object.spin_points, prepared.params};
-    return encode_object(farm, dense, settings.encoding, division, tick);
+    return encode_object(farm, dense, settings.encoding, split, tick);
   };
 }
 
@@ -169,7 +169,7 @@ RankWork make_describe_work(std::string_view context, std::optional<TableRows>& 
 
 void describe_files(TaskFarm& farm, const DescribeJob& job, const DeliverDescribed& deliver,
                     const TaskFarm::Tick& tick) {
-  if (shares_out_points(job.settings, job.division)) {
+  if (shares_out_points(job.settings, job.split)) {
     describe_by_points(farm, job, deliver, tick);
     return;
   }

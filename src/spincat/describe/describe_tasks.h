@@ -58,7 +58,7 @@ struct DescribeJob {
   std::function<const std::filesystem::path&(std::size_t)> file;
   const Settings& settings;
   int views = 1;  // the object itself and views - 1 training copies
-  Division division = Division::sums;
+  WorkSplit split = WorkSplit::encode_remotely;
   ReadLimits limits = {};
   // Asked with the length of the first feature vector: whether all ranks keep all of them (TableRows). Not asked
   // where spin points are shared out. Empty: no.
@@ -66,21 +66,21 @@ struct DescribeJob {
 };
 
 // Reads and describes every file and hands the results on in order, on the calling thread. Many objects with few spin
-// points are shared out object by object; those with many spin points, or all of them where the division is `images`,
-// one after the other by their spin points. The results are the same for any number of threads and ranks and for both
-// divisions; the seconds are not. The numbers of the feature vectors are only there while they are delivered, and only
-// in `values`. `tick` gets the number of files that are done.
+// points are shared out object by object; those with many spin points, or all of them where the split is
+// `return_images`, one after the other by their spin points. The results are the same for any number of threads and
+// ranks and for both splits; the seconds are not. The numbers of the feature vectors are only there while they are
+// delivered, and only in `values`. `tick` gets the number of files that are done.
 using DeliverDescribed =
     std::function<void(std::size_t i, const Described& described, std::span<const FeatureBytes> values)>;
 void describe_files(TaskFarm& farm, const DescribeJob& job, const DeliverDescribed& deliver,
                     const TaskFarm::Tick& tick);
 
 // Whether objects are dealt with one after the other, each shared out by its spin points: where they have many, or
-// where the division asks for it.
-bool shares_out_points(const Settings& settings, Division division);
+// where the split asks for it.
+bool shares_out_points(const Settings& settings, WorkSplit split);
 
 // For describe(): shares out the spin points of a prepared object. What is referred to must outlive the result.
-EncodePrepared encode_on(TaskFarm& farm, const Settings& settings, Division division, const TaskFarm::Tick& tick);
+EncodePrepared encode_on(TaskFarm& farm, const Settings& settings, WorkSplit split, const TaskFarm::Tick& tick);
 
 // Its work, for other ranks, which keep the feature vectors in `rows` where they are asked to; `make_room` is called
 // before that, as both the old table and the new rows may be too much.

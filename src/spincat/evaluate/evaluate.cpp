@@ -9,7 +9,7 @@
 #include "spincat/describe/stopwatch.h"
 #include "spincat/evaluate/roc.h"
 #include "spincat/evaluate/trial.h"
-#include "spincat/parallel/task_farm.h"
+#include "spincat/parallel/farm_execution.h"
 #include "spincat/train/judge_trainer.h"
 #include "spincat/train/worth_broadcasting.h"
 
@@ -67,12 +67,11 @@ std::vector<Split> splits_of(const EvaluationData& data, const Settings& setting
 }
 
 std::vector<Trial> run_trials(const EvaluationData& data, const std::vector<Split>& splits, const Settings& settings,
-                              const EvaluateOptions& options, const Progress& progress) {
+                              const EvaluateOptions& options, const Execution& execution) {
   const bool confidence = options.calibrates();
-  LocalFarm own(options.threads);
-  TaskFarm& farm = options.farm != nullptr ? *options.farm : own.farm();
+  const FarmExecution run(execution);
   const std::size_t trainings = count_trainings(splits.size(), confidence);
-  JudgeTrainer trainer(data.table, settings.judge, farm, trainings, progress);
+  JudgeTrainer trainer(data.table, settings.judge, *run.farm, trainings, run.progress);
   std::vector<Trial> trials;
   if (splits.size() == 1) {  // shared out by its judges
     trials.push_back(run_trial(trial_data(data), trainer, splits[0], settings, confidence));
@@ -91,11 +90,7 @@ std::vector<Trial> run_trials(const EvaluationData& data, const std::vector<Spli
   job.deliver = [&](std::size_t, const std::string& result) {
     trials.push_back(unpack_trial(result, data.table.categories.size()));
   };
-  trainer.farm().run(job, [&](std::size_t done) {
-    if (progress) {
-      progress("judging splits", done, splits.size());
-    }
-  });
+  trainer.farm().run(job, run.ticking("judging splits", splits.size()));
   return trials;
 }
 
@@ -287,7 +282,7 @@ std::vector<TestedObject> named_objects(const EvaluationData& data, std::span<co
 }  // namespace
 
 Evaluation judge_evaluation(const EvaluationData& data, const Settings& settings, const EvaluateOptions& options,
-                            const Progress& progress) {
+                            const Execution& execution) {
   options.validate();
   Stopwatch watch;
   const std::vector<Split> splits = splits_of(data, settings, options);
@@ -297,7 +292,7 @@ Evaluation judge_evaluation(const EvaluationData& data, const Settings& settings
   if (result.protocol == Protocol::splits) {
     result.split_seeds = seeds_of(options, settings);
   }
-  const std::vector<Trial> trials = run_trials(data, splits, settings, options, progress);
+  const std::vector<Trial> trials = run_trials(data, splits, settings, options, execution);
   const std::size_t n = result.categories.size();
   result.confusion.assign(n, std::vector<std::uint32_t>(n, 0));
   for (const Trial& trial : trials) {
@@ -316,13 +311,13 @@ Evaluation judge_evaluation(const EvaluationData& data, const Settings& settings
 }
 
 Evaluation evaluate(const Dataset& dataset, const Settings& settings, const EvaluateOptions& options,
-                    const Progress& progress) {
-  return judge_evaluation(describe_for_evaluation(dataset, settings, options, progress), settings, options, progress);
+                    const Execution& execution) {
+  return judge_evaluation(describe_for_evaluation(dataset, settings, options, execution), settings, options, execution);
 }
 
 Evaluation evaluate_across(const Dataset& train, const Dataset& test, const Settings& settings,
-                           const EvaluateOptions& options, const Progress& progress) {
-  return judge_evaluation(describe_across(train, test, settings, options, progress), settings, options, progress);
+                           const EvaluateOptions& options, const Execution& execution) {
+  return judge_evaluation(describe_across(train, test, settings, options, execution), settings, options, execution);
 }
 
 }  // namespace spincat

@@ -11,16 +11,13 @@
 #include "spincat/dataset/dataset.h"
 #include "spincat/dataset/parts.h"
 #include "spincat/describe/describe.h"
-#include "spincat/describe/division.h"
-#include "spincat/describe/progress.h"
 #include "spincat/evaluate/rates.h"
 #include "spincat/evaluate/tested_objects.h"
+#include "spincat/execution.h"
 #include "spincat/settings/settings.h"
 #include "spincat/train/feature_table.h"
 
 namespace spincat {
-
-class TaskFarm;
 
 // Which objects are learned from and which are tested.
 enum class Protocol {
@@ -40,10 +37,6 @@ struct EvaluateOptions {
   TestOptions test;                        // how the tested objects are shown
   bool measure_confidence = false;         // calibrates in each split, too: six times the training
   std::vector<std::filesystem::path> unknown_objects;  // files of objects of none of the categories; asks for the above
-  bool strict = false;       // an object that cannot be read ends the evaluation instead of being left out
-  int threads = 1;           // 1 or more; never changes the result
-  TaskFarm* farm = nullptr;  // describes the objects on its threads and ranks; never changes the result either
-  Division division = Division::sums;
 
   // Throws InputError naming the option, its value and the allowed range.
   void validate() const;
@@ -123,24 +116,24 @@ struct EvaluationData {
 // Describes every object of the data set once, and again in the form it is tested in where that is another.
 // Throws InputError when options or settings are out of range, or fewer than two categories can be read.
 EvaluationData describe_for_evaluation(const Dataset& dataset, const Settings& settings, const EvaluateOptions& options,
-                                       const Progress& progress = {});
+                                       const Execution& execution = {});
 
 // The same for judges that learn from one data set and are tested on another. Categories are matched by their names;
 // those missing on either side are left out. Throws as the above and common_categories (dataset/parts.h) do.
 EvaluationData describe_across(const Dataset& train, const Dataset& test, const Settings& settings,
-                               const EvaluateOptions& options, const Progress& progress = {});
+                               const EvaluateOptions& options, const Execution& execution = {});
 
 // For each split trains the judges on the training objects and their copies, and lets them vote on the test objects.
-// The result is the same for the same data, settings and options, whatever the number of threads. A category with a
+// The result is the same for the same data, settings and options, whatever the execution. A category with a
 // single object is never tested by splits; leaving that object out tests the judges of the other categories on it.
 // Intervals: over splits as rate_over_splits, otherwise as the pooled rates (rates.h).
 Evaluation judge_evaluation(const EvaluationData& data, const Settings& settings, const EvaluateOptions& options,
-                            const Progress& progress = {});
+                            const Execution& execution = {});
 
 // Both together.
 Evaluation evaluate(const Dataset& dataset, const Settings& settings, const EvaluateOptions& options,
-                    const Progress& progress = {});
+                    const Execution& execution = {});
 Evaluation evaluate_across(const Dataset& train, const Dataset& test, const Settings& settings,
-                           const EvaluateOptions& options, const Progress& progress = {});
+                           const EvaluateOptions& options, const Execution& execution = {});
 
 }  // namespace spincat

@@ -9,30 +9,13 @@
 #include "spincat/describe/stopwatch.h"
 #include "spincat/error.h"
 #include "spincat/evaluate/evaluate.h"
-#include "spincat/parallel/task_farm.h"
 #include "spincat/train/worth_broadcasting.h"
 
 namespace spincat {
 namespace {
 
-void check_all_described(const TestTable& tested) {
-  for (std::size_t i = 0; i < tested.objects.size(); ++i) {
-    if (!tested.problems[i].empty()) {
-      throw InputError(tested.objects[i].file.string(), tested.problems[i]);
-    }
-  }
-}
-
-TestTable described(std::span<const DatasetObject> objects, const EvaluationData& data, const Settings& settings,
-                    const TestOptions& test, const EvaluateOptions& options, const Progress& progress) {
-  LocalFarm own(options.threads);
-  TaskFarm& farm = options.farm != nullptr ? *options.farm : own.farm();
-  TestTable tested =
-      describe_tested(objects, static_cast<std::size_t>(data.table.features.cols()), settings, test, farm, progress);
-  if (options.strict) {
-    check_all_described(tested);
-  }
-  return tested;
+std::size_t feature_length(const EvaluationData& data) {
+  return static_cast<std::size_t>(data.table.features.cols());
 }
 
 // Views are made of the objects as they are.
@@ -52,21 +35,16 @@ std::size_t splits_in_sight(const EvaluateOptions& options, std::size_t objects)
 
 // What both kinds have in common: the objects to learn from, and the unknown objects.
 EvaluationData describe_known(const Dataset& dataset, std::size_t splits, const Settings& settings,
-                              const EvaluateOptions& options, const Progress& progress) {
+                              const EvaluateOptions& options, const Execution& execution) {
   EvaluationData data;
   data.dataset = dataset.name;
-  LocalFarm own(options.threads);
-  TaskFarm& farm = options.farm != nullptr ? *options.farm : own.farm();
-  data.table = describe_dataset(dataset, settings, options.strict, farm, options.division,
-                                count_trainings(splits, options.calibrates()), progress);
+  data.table = describe_dataset(dataset, settings, execution, count_trainings(splits, options.calibrates()));
   std::vector<DatasetObject> unknown_objects;
   for (const std::filesystem::path& file : options.unknown_objects) {
     unknown_objects.push_back({file, 0, ""});
   }
   // As they are: whether a stranger is turned or sampled, it stays a stranger.
-  TestOptions as_they_are;
-  as_they_are.limits = options.test.limits;
-  data.unknown_objects = described(unknown_objects, data, settings, as_they_are, options, progress);
+  data.unknown_objects = describe_tested(unknown_objects, feature_length(data), settings, TestOptions{}, execution);
   return data;
 }
 
@@ -81,38 +59,38 @@ void EvaluateOptions::validate() const {
 }
 
 EvaluationData describe_for_evaluation(const Dataset& dataset, const Settings& settings, const EvaluateOptions& options,
-                                       const Progress& progress) {
+                                       const Execution& execution) {
   options.validate();
   check_form(settings, options);
   Stopwatch watch;
   std::vector<LeftOutCategory> left_out;
   const Dataset part = with_enough_objects(dataset, options.fewest_objects, left_out);
   EvaluationData data =
-      describe_known(part, splits_in_sight(options, part.objects.size()), settings, options, progress);
+      describe_known(part, splits_in_sight(options, part.objects.size()), settings, options, execution);
   data.left_out = std::move(left_out);
   if (options.test.form != TestForm::as_is) {
-    data.tested = described(data.table.objects, data, settings, options.test, options, progress);
+    data.tested = describe_tested(data.table.objects, feature_length(data), settings, options.test, execution);
   }
   data.wall_seconds = watch.lap();
   return data;
 }
 
 EvaluationData describe_across(const Dataset& train, const Dataset& test, const Settings& settings,
-                               const EvaluateOptions& options, const Progress& progress) {
+                               const EvaluateOptions& options, const Execution& execution) {
   options.validate();
   check_form(settings, options);
   Stopwatch watch;
   std::vector<LeftOutCategory> left_out;
   const auto [learned, tested] =
       common_categories(with_enough_objects(train, options.fewest_objects, left_out), test, left_out);
-  if (options.strict && !tested.skipped.empty()) {
+  if (execution.strict && !tested.skipped.empty()) {
     throw InputError(tested.skipped.front().file.string(), tested.skipped.front().reason);
   }
-  EvaluationData data = describe_known(learned, 1, settings, options, progress);
+  EvaluationData data = describe_known(learned, 1, settings, options, execution);
   data.test_dataset = tested.name;
   data.across = true;
   data.left_out = std::move(left_out);
-  data.tested = described(tested.objects, data, settings, options.test, options, progress);
+  data.tested = describe_tested(tested.objects, feature_length(data), settings, options.test, execution);
   if (learned.name != tested.name) {  // else they are the same
     data.table.skipped.insert(data.table.skipped.end(), tested.skipped.begin(), tested.skipped.end());
   }

@@ -94,7 +94,7 @@ Json identity_of(const Dataset& dataset, const Settings& settings, const std::ve
 }  // namespace
 
 Sweep sweep(const Dataset& dataset, const Settings& settings, const std::vector<Variation>& variations,
-            const EvaluateOptions& options, const std::filesystem::path& journal_file, const Progress& progress) {
+            const EvaluateOptions& options, const Execution& execution, const std::filesystem::path& journal_file) {
   check(variations);
   options.validate();
   const std::vector<Values> points = combinations(variations);
@@ -120,9 +120,9 @@ Sweep sweep(const Dataset& dataset, const Settings& settings, const std::vector<
         continue;
       }
       if (!data) {
-        data = describe_for_evaluation(dataset, now, options, progress);
+        data = describe_for_evaluation(dataset, now, options, execution);
       }
-      const Evaluation found = judge_evaluation(*data, now, options, progress);
+      const Evaluation found = judge_evaluation(*data, now, options, execution);
       journal.add({points[*at], found.mean_class_rate, found.overall_rate, found.seconds});
       at = missing.erase(at);
     }

@@ -42,6 +42,6 @@ struct Sweep {
 //
 // Throws InputError when a setting or value is not possible, before any work, and as evaluate does.
 Sweep sweep(const Dataset& dataset, const Settings& settings, const std::vector<Variation>& variations,
-            const EvaluateOptions& options, const std::filesystem::path& journal = {}, const Progress& progress = {});
+            const EvaluateOptions& options, const Execution& execution = {}, const std::filesystem::path& journal = {});
 
 }  // namespace spincat

@@ -16,8 +16,8 @@
 #include "spincat/error.h"
 #include "spincat/geometry/random.h"
 #include "spincat/io/read_object.h"
+#include "spincat/parallel/farm_execution.h"
 #include "spincat/parallel/packing.h"
-#include "spincat/parallel/task_farm.h"
 #include "spincat/prepare/surface_samples.h"
 #include "spincat/settings/settings_json.h"
 
@@ -114,26 +114,41 @@ std::span<const float> TestTable::features_of(std::uint32_t object, std::uint32_
 
 namespace {
 
+void check_all_described(const TestTable& tested) {
+  for (std::size_t i = 0; i < tested.objects.size(); ++i) {
+    if (!tested.problems[i].empty()) {
+      throw InputError(tested.objects[i].file.string(), tested.problems[i]);
+    }
+  }
+}
+
 // One object, in the form it is tested in.
 struct TestedTask {
   std::uint64_t seed;
   std::string_view file;
 };
 
-Described describe_task(const TestedTask& task, const Settings& settings, const TestOptions& options) {
+// How objects are shown and read.
+struct Showing {
+  TestOptions options;
+  ReadLimits limits;
+};
+
+Described describe_task(const TestedTask& task, const Settings& settings, const Showing& showing) {
   const auto read = [&] {
-    return in_test_form(read_listed_object(std::filesystem::path(task.file), options.limits), options, task.seed);
+    return in_test_form(read_listed_object(std::filesystem::path(task.file), showing.limits), showing.options,
+                        task.seed);
   };
   return describe_object(read, settings.tested_rows(), [&](const Object& object, int view, StageSeconds& seconds) {
     return describe(object, settings, view, &seconds);
   });
 }
 
-Work tested_work(const Settings& settings, const TestOptions& options) {
-  return [settings, options](std::string_view bytes) {
+Work tested_work(const Settings& settings, const Showing& showing) {
+  return [settings, showing](std::string_view bytes) {
     Unpacker fields(bytes);
     const auto seed = fields.get<std::uint64_t>();
-    return pack(describe_task({seed, fields.rest()}, settings, options));
+    return pack(describe_task({seed, fields.rest()}, settings, showing));
   };
 }
 
@@ -142,16 +157,17 @@ Work tested_work(const Settings& settings, const TestOptions& options) {
 Work make_tested_work(std::string_view context) {
   Unpacker fields(context);
   const Settings settings = settings_from_json(nlohmann::json::parse(fields.get_text()));
-  TestOptions options;
-  options.form = fields.get<TestForm>();
-  options.noise = fields.get<double>();
-  options.cloud_points = fields.get<int>();
-  options.limits = unpack_limits(fields);
-  return throwing_problems(tested_work(settings, options));
+  Showing showing;
+  showing.options.form = fields.get<TestForm>();
+  showing.options.noise = fields.get<double>();
+  showing.options.cloud_points = fields.get<int>();
+  showing.limits = unpack_limits(fields);
+  return throwing_problems(tested_work(settings, showing));
 }
 
 TestTable describe_tested(std::span<const DatasetObject> objects, std::size_t feature_length, const Settings& settings,
-                          const TestOptions& options, TaskFarm& farm, const Progress& progress) {
+                          const TestOptions& options, const Execution& execution) {
+  const FarmExecution run(execution);
   TestTable table;
   table.objects.assign(objects.begin(), objects.end());
   table.rows_per_object = static_cast<std::uint32_t>(settings.tested_rows());
@@ -163,9 +179,9 @@ TestTable describe_tested(std::span<const DatasetObject> objects, std::size_t fe
   job.kind = kTestedTasks;
   job.context = [&](Packer& packer) {
     packer.add(settings_to_json(settings).dump()).add(options.form).add(options.noise).add(options.cloud_points);
-    pack_limits(packer, options.limits);
+    pack_limits(packer, run.limits);
   };
-  job.work = tested_work(settings, options);
+  job.work = tested_work(settings, {options, run.limits});
   job.is_worth_keeping = has_no_problem;
   job.tasks = objects.size();
   job.task = [&](std::size_t i) { return Packer().add(derive_seed(stream, i)).take() + objects[i].file.string(); };
@@ -187,11 +203,10 @@ TestTable describe_tested(std::span<const DatasetObject> objects, std::size_t fe
       std::ranges::copy(found.values, table.features.row(row++).data());
     }
   };
-  farm.run(job, [&](std::size_t done) {
-    if (progress) {
-      progress("describing test objects", done, objects.size());
-    }
-  });
+  run.farm->run(job, run.ticking("describing test objects", objects.size()));
+  if (run.strict) {
+    check_all_described(table);
+  }
   return table;
 }
 

@@ -10,9 +10,8 @@
 #include "spincat/dataset/dataset.h"
 #include "spincat/describe/describe.h"
 #include "spincat/describe/kinds.h"
-#include "spincat/describe/progress.h"
+#include "spincat/execution.h"
 #include "spincat/geometry/object.h"
-#include "spincat/io/read_limits.h"
 #include "spincat/judge/gram.h"
 #include "spincat/parallel/task.h"
 #include "spincat/settings/settings.h"
@@ -21,8 +20,6 @@ namespace spincat {
 
 // The name of this kind of work, as ranks tell each other.
 inline constexpr const char* kTestedTasks = "feature vectors of test objects";
-
-class TaskFarm;
 
 // How objects are shown to the judges.
 enum class TestForm {
@@ -36,7 +33,6 @@ struct TestOptions {
   double noise = 0.01;      // of clouds: standard deviation along each axis, in diameters of the object, 0 to 1; the
                             // diameter is twice the distance of the furthest point from the centre of the bounding box
   int cloud_points = 2048;  // of clouds, 1 to 10,000,000
-  ReadLimits limits = {};   // while reading the objects
 
   // Throws InputError naming the option, its value and the allowed range.
   void validate() const;
@@ -58,11 +54,11 @@ struct TestTable {
 };
 
 // Reads and describes objects, without copies, or as many views of them as settings.tested_rows() says; those that
-// cannot be read or do not give `feature_length` numbers get their reason instead. Each object is altered by a seed of
-// its own, made from settings.seed and its place. The result does not depend on the number of threads and ranks of the
-// farm.
+// cannot be read or do not give `feature_length` numbers get their reason instead, or are an error where the execution
+// is strict. Each object is altered by a seed of its own, made from settings.seed and its place. The result does not
+// depend on the execution but for its limits.
 TestTable describe_tested(std::span<const DatasetObject> objects, std::size_t feature_length, const Settings& settings,
-                          const TestOptions& options, TaskFarm& farm, const Progress& progress);
+                          const TestOptions& options, const Execution& execution);
 
 // Its work, for other ranks.
 Work make_tested_work(std::string_view context);

@@ -10,6 +10,7 @@
 #include "spincat/describe/describe_tasks.h"
 #include "spincat/describe/table_rows.h"
 #include "spincat/error.h"
+#include "spincat/parallel/farm_execution.h"
 #include "spincat/train/broadcast_id.h"
 #include "spincat/train/worth_broadcasting.h"
 
@@ -133,9 +134,11 @@ std::span<const float> FeatureTable::features_of(std::uint32_t object, std::uint
   return {features.row(row).data(), static_cast<std::size_t>(features.cols())};
 }
 
-FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, bool strict, TaskFarm& farm,
-                              Division division, std::size_t trainings, const Progress& progress) {
+FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, const Execution& execution,
+                              std::size_t trainings) {
   settings.validate();
+  const FarmExecution run(execution);
+  const bool strict = run.strict;
   if (strict && !dataset.skipped.empty()) {
     throw InputError(dataset.skipped.front().file.string(), dataset.skipped.front().reason);
   }
@@ -147,12 +150,12 @@ FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, 
                   [&](std::size_t i) -> const std::filesystem::path& { return dataset.objects[i].file; },
                   settings,
                   settings.training_rows(),
-                  division,
+                  run.split,
                   dataset.limits,
                   {}};
   job.keeps_rows = [&](std::size_t length) {
     all_ranks_keep = worth_broadcasting({objects.size(), objects.size() * rows_each, length, dataset.categories.size()},
-                                        trainings, farm);
+                                        trainings, *run.farm);
     return all_ranks_keep;
   };
   const auto keep = [&](std::size_t i, const Described& one, std::span<const FeatureBytes> values) {
@@ -165,11 +168,7 @@ FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, 
     }
     objects[i].described = one;
   };
-  describe_files(farm, job, keep, [&](std::size_t done) {
-    if (progress) {
-      progress("describing objects", done, objects.size());
-    }
-  });
+  describe_files(*run.farm, job, keep, run.ticking("describing objects", objects.size()));
   leave_out_shorter(dataset, strict, rows.length(), objects);
   FeatureTable table = collect(dataset, objects, std::move(rows), settings);
   if (all_ranks_keep) {
@@ -179,12 +178,6 @@ FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, 
   }
   check_categories(table, dataset.name);
   return table;
-}
-
-FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, bool strict, int threads,
-                              const Progress& progress) {
-  LocalFarm own(threads);
-  return describe_dataset(dataset, settings, strict, own.farm(), Division::sums, {}, progress);
 }
 
 }  // namespace spincat

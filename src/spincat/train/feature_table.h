@@ -8,15 +8,12 @@
 
 #include "spincat/dataset/dataset.h"
 #include "spincat/describe/describe.h"
-#include "spincat/describe/division.h"
 #include "spincat/describe/kinds.h"
-#include "spincat/describe/progress.h"
+#include "spincat/execution.h"
 #include "spincat/judge/gram.h"
 #include "spincat/settings/settings.h"
 
 namespace spincat {
-
-class TaskFarm;
 
 // Objects that could be read, and their features: row i * rows_per_object is object i itself, the rows after it are its
 // training copies; or all rows are views of it.
@@ -48,16 +45,11 @@ struct FeatureTable {
   std::span<const float> features_of(std::uint32_t object, std::uint32_t view = 0) const;
 };
 
-// Reads and describes every object of the data set once, with its copies, on all threads and ranks of the farm. The
-// result does not depend on these, nor on the division. Where the plan makes it worth it (worth_broadcasting.h), other
-// ranks get the features as they come. Objects that cannot be read are left out and listed with their reason; with
-// `strict` the first of them is thrown as an InputError instead. Throws InputError when fewer than two categories are
-// left.
-FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, bool strict, TaskFarm& farm,
-                              Division division, std::size_t trainings, const Progress& progress);
-
-// The same on so many threads of this process.
-FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, bool strict, int threads,
-                              const Progress& progress);
+// Reads and describes every object of the data set once, with its copies. The result does not depend on the execution.
+// Where the plan of so many trainings makes it worth it (worth_broadcasting.h), other ranks get the features as they
+// come. Objects that cannot be read are left out and listed with their reason, or are an error where the execution is
+// strict. Throws InputError when fewer than two categories are left.
+FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, const Execution& execution,
+                              std::size_t trainings = 0);
 
 }  // namespace spincat

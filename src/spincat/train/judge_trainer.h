@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "spincat/describe/progress.h"
+#include "spincat/execution.h"
 #include "spincat/judge/calibration.h"
 #include "spincat/judge/judge_list.h"
 #include "spincat/parallel/task_farm.h"

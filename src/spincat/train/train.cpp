@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "spincat/describe/stopwatch.h"
-#include "spincat/parallel/task_farm.h"
+#include "spincat/parallel/farm_execution.h"
 #include "spincat/train/feature_table.h"
 #include "spincat/train/judge_trainer.h"
 #include "spincat/train/table_familiarity.h"
@@ -12,23 +12,20 @@
 
 namespace spincat {
 
-TrainResult train(const Dataset& dataset, const Settings& settings, const TrainOptions& options,
-                  const Progress& progress) {
+TrainResult train(const Dataset& dataset, const Settings& settings, const Execution& execution) {
   // Describe every object and its stretched copies once.
-  LocalFarm own(options.threads);
-  TaskFarm& farm = options.farm != nullptr ? *options.farm : own.farm();
+  const FarmExecution run(execution);
   const std::size_t trainings = count_trainings(1, true);
-  const FeatureTable table =
-      describe_dataset(dataset, settings, options.strict, farm, options.division, trainings, progress);
+  const FeatureTable table = describe_dataset(dataset, settings, run, trainings);
   std::vector<std::uint32_t> objects(table.objects.size());
   std::iota(objects.begin(), objects.end(), 0U);
 
   // Train a judge for every pair of categories, and find out how far their votes can be trusted.
   Stopwatch watch;
-  JudgeTrainer trainer(table, settings.judge, farm, trainings, progress);
+  JudgeTrainer trainer(table, settings.judge, *run.farm, trainings, run.progress);
   TrainResult result;
   Model& model = result.model;
-  CalibratedJudges trained = trainer.train_calibrated(objects, settings.seed, progress);
+  CalibratedJudges trained = trainer.train_calibrated(objects, settings.seed, run.progress);
   model.judges = std::move(trained.judges);
   model.calibration = trained.calibration;
   model.familiarity = familiarity_of(table, objects);

@@ -418,15 +418,15 @@ TEST(TrainJudges, TestObjectsDoNotInfluenceTheCodebook) {
   settings.encoding = "bag-of-features";
   settings.words = 8;
   FeatureTable table = describe_dataset(shapes(), settings, {.threads = 2, .strict = true});
-  std::vector<std::uint32_t> train;
+  std::vector<std::uint32_t> learned;
   for (std::uint32_t object = 0; object < table.objects.size(); ++object) {
     if (object % 3 != 0) {
-      train.push_back(object);
+      learned.push_back(object);
     }
   }
   const auto train = [&] {
     LocalFarm farm(2);
-    return JudgeTrainer(table, settings.judge, farm.farm(), {}).train(train);
+    return JudgeTrainer(table, settings.judge, farm.farm(), {}).train(learned);
   };
   const JudgeList before = train();
   EXPECT_EQ(before.codebook.words.rows(), 8);

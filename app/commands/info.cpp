@@ -11,6 +11,7 @@
 #include "spincat/describe/describe.h"
 #include "spincat/error.h"
 #include "spincat/files/file.h"
+#include "spincat/files/paths.h"
 #include "spincat/io/read_object.h"
 #include "spincat/prepare/facts.h"
 #include "spincat/report/json.h"
@@ -53,12 +54,7 @@ int run_info(const InfoArguments& arguments) {
   const ObjectFacts facts = facts_of(object);
   stop_if_interrupted();
   if (!arguments.report.empty()) {
-    Preparation prepared;
-    try {
-      prepared = prepare_object(object, settings);
-    } catch (const InputError& error) {
-      throw InputError(name, error.problem());
-    }
+    const Preparation prepared = naming_file(name, [&] { return prepare_object(object, settings); });
     stop_if_interrupted();
     write_file_atomically(arguments.report, object_page(name, object, facts, prepared, settings, command_line()));
   }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <memory>
 #include <vector>
 
@@ -17,6 +16,7 @@
 #include "spincat/error.h"
 #include "spincat/files/file.h"
 #include "spincat/files/output_file.h"
+#include "spincat/files/paths.h"
 #include "spincat/io/npy.h"
 #include "spincat/io/read_object.h"
 #include "spincat/report/json.h"
@@ -51,12 +51,6 @@ Settings spin_settings(const SpinArguments& arguments) {
   s.spin.bin_size = 1.0;
   s.bin_size_unit = BinSizeUnit::resolution;
   return arguments.settings.applied_to(s);
-}
-
-bool ends_in(const fs::path& file, std::string_view extension) {
-  std::string end = file.extension().string();
-  std::ranges::transform(end, end.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return end == extension;
 }
 
 // Some points of many, evenly chosen, in their order.
@@ -136,11 +130,8 @@ void write_sheet(const SpinArguments& arguments, const DenseObject& object, int 
 }
 
 Preparation prepared_object(const SpinArguments& arguments, const Settings& settings) {
-  try {
-    return prepare_object(read_object(arguments.file, arguments.limits), settings);
-  } catch (const InputError& error) {
-    throw error.file().empty() ? InputError(arguments.file.string(), error.problem()) : error;
-  }
+  return naming_file(arguments.file,
+                     [&] { return prepare_object(read_object(arguments.file, arguments.limits), settings); });
 }
 
 // Where a name leads to, as far as that can be told; whoever writes there says what is wrong with it.
@@ -156,7 +147,7 @@ void check_outputs(const SpinArguments& arguments) {
   if (arguments.points_output.empty()) {
     return;
   }
-  if (!ends_in(arguments.points_output, ".npy")) {
+  if (lower_extension(arguments.points_output) != ".npy") {
     throw InputError(arguments.points_output.string(), "expected a name that ends in .npy");
   }
   if (place_of(arguments.points_output) == place_of(arguments.output)) {
@@ -167,8 +158,8 @@ void check_outputs(const SpinArguments& arguments) {
 
 // Before the work, not after it.
 void check_arguments(const SpinArguments& arguments, const Settings& settings) {
-  const bool png = ends_in(arguments.output, ".png");
-  if (!png && !ends_in(arguments.output, ".npy")) {
+  const bool png = lower_extension(arguments.output) == ".png";
+  if (!png && lower_extension(arguments.output) != ".npy") {
     throw InputError(arguments.output.string(), "expected a name that ends in .npy or .png");
   }
   check_outputs(arguments);
@@ -199,7 +190,7 @@ int run_spin(const SpinArguments& arguments, TaskFarm& farm) {
   const DenseObject dense{object.surface, spin_points, params};
   {
     ProgressBar bar(arguments.run);
-    if (ends_in(arguments.output, ".png")) {
+    if (lower_extension(arguments.output) == ".png") {
       write_sheet(arguments, dense, farm.threads(), bar);
     } else {
       run.keep_journal(arguments.output, [&] { return identity_of(arguments, settings); });

@@ -9,6 +9,7 @@
 #include "app/terminal/messages.h"
 #include "spincat/error.h"
 #include "spincat/files/locked_file.h"
+#include "spincat/files/paths.h"
 #include "spincat/parallel/placement.h"
 #include "spincat/parallel/task_farm.h"
 #include "spincat/settings/settings_json.h"
@@ -50,7 +51,7 @@ void FarmRun::keep_journal(const fs::path& output, const std::function<RunIdenti
   } else if (farm_.ranks() > 1 && !output.empty()) {
     std::error_code error;
     const fs::file_status status = fs::status(output, error);
-    if (!fs::exists(status) || fs::is_regular_file(status)) {
+    if (is_regular_or_missing(status)) {
       file = output.string() + ".journal";
     }
   }

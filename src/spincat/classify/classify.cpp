@@ -4,6 +4,7 @@
 
 #include "spincat/describe/stopwatch.h"
 #include "spincat/error.h"
+#include "spincat/files/paths.h"
 #include "spincat/io/read_object.h"
 
 namespace spincat {
@@ -29,13 +30,9 @@ Classification classify_file(const Model& model, const std::filesystem::path& fi
   Stopwatch watch;
   const Object object = read_object(file, limits);
   const double read = watch.lap();
-  try {
-    Classification result = classify(model, object, elsewhere);
-    result.seconds.read = read;
-    return result;
-  } catch (const InputError& error) {
-    throw InputError(file.string(), error.problem());
-  }
+  Classification result = naming_file(file, [&] { return classify(model, object, elsewhere); });
+  result.seconds.read = read;
+  return result;
 }
 
 }  // namespace spincat

@@ -17,6 +17,7 @@
 #include "spincat/error.h"
 #include "spincat/files/file.h"
 #include "spincat/files/magic.h"
+#include "spincat/files/paths.h"
 #include "spincat/files/record_file.h"
 #include "spincat/settings/settings_json.h"
 #include "spincat/settings/whole_number.h"
@@ -278,13 +279,10 @@ void write_model(const std::filesystem::path& file, const Model& model) {
 
 Model read_model(const std::filesystem::path& file) {
   const std::string bytes = read_file(file);
-  try {
-    Model model = model_from_json(unpack_record(bytes, "model", kModelVersion, kOldestModelVersion));
-    model.file = file;
-    return model;
-  } catch (const InputError& error) {
-    throw InputError(file.string(), error.problem());
-  }
+  Model model = naming_file(
+      file, [&] { return model_from_json(unpack_record(bytes, "model", kModelVersion, kOldestModelVersion)); });
+  model.file = file;
+  return model;
 }
 
 bool is_model_file(const std::filesystem::path& file) {

@@ -15,6 +15,7 @@
 #include "spincat/dataset/listing.h"
 #include "spincat/dataset/words.h"
 #include "spincat/error.h"
+#include "spincat/files/paths.h"
 #include "spincat/io/read_object.h"
 
 namespace spincat {
@@ -35,25 +36,9 @@ struct NamedObject {
   const fs::path* source;
 };
 
-std::string lower_case_extension(const fs::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) {
-    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  }
-  return extension;
-}
-
 bool is_folder(const fs::path& path) {
   std::error_code error;
   return fs::is_directory(path, error);
-}
-
-// Nobody may ever write to a pipe that lies in a folder.
-void check_regular(const fs::directory_entry& entry) {
-  std::error_code ignored;
-  if (entry.exists(ignored) && !entry.is_regular_file(ignored)) {
-    throw InputError(entry.path().string(), "is not a regular file");
-  }
 }
 
 // The .cla files of a folder laid out as the Princeton Shape Benchmark is; none where it is not.
@@ -64,8 +49,8 @@ std::vector<fs::path> classification_files(const fs::path& folder) {
     for (fs::directory_iterator next(folder / "classification", error); !error && next != fs::directory_iterator();
          next.increment(error)) {
       const bool is_hidden = next->path().filename().native().starts_with('.');  // "._train.cla" from a Macintosh
-      if (!is_hidden && lower_case_extension(next->path()) == ".cla") {
-        check_regular(*next);
+      if (!is_hidden && lower_extension(next->path()) == ".cla") {
+        expect_regular(next->path());
         files.push_back(next->path());
       }
     }
@@ -85,7 +70,7 @@ void list_source(const fs::path& source, const fs::path& models, const ReadLimit
     const bool is_missing = status.type() == fs::file_type::not_found;
     throw InputError(source.string(), is_missing ? "no such file or folder" : "cannot be read: " + error.message());
   }
-  const std::string extension = lower_case_extension(source);
+  const std::string extension = lower_extension(source);
   if (fs::is_directory(status)) {
     const std::vector<fs::path> files = classification_files(source);
     for (const fs::path& file : files) {

@@ -1,6 +1,6 @@
 #include "spincat/dataset/listing.h"
 
-#include "spincat/error.h"
+#include "spincat/files/paths.h"
 
 namespace spincat {
 
@@ -22,11 +22,7 @@ void ListBuilder::add_object(ListedObject object) {
 
 void ListBuilder::add_memory(std::uint64_t bytes) {
   memory_ += bytes;
-  try {
-    check_growth(memory_, file_size_, limits_);
-  } catch (const InputError& error) {
-    throw InputError(listing_.source.string(), error.problem());
-  }
+  naming_file(listing_.source, [&] { check_growth(memory_, file_size_, limits_); });
 }
 
 }  // namespace spincat

@@ -4,6 +4,7 @@
 
 #include "spincat/dataset/csv_reader.h"
 #include "spincat/error.h"
+#include "spincat/files/paths.h"
 #include "spincat/io/read_object.h"
 
 namespace spincat {
@@ -14,7 +15,7 @@ namespace {
 
 bool names_an_object(const fs::directory_entry& entry) {
   std::error_code ignored;
-  return is_object_file(entry.path()) && (entry.is_regular_file(ignored) || !entry.exists(ignored));
+  return is_object_file(entry.path()) && is_regular_or_missing(entry.status(ignored));
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <new>
@@ -17,53 +16,27 @@
 #include "spincat/error.h"
 #include "spincat/files/file.h"
 #include "spincat/files/magic.h"
+#include "spincat/files/paths.h"
 #include "spincat/files/system_error_text.h"
 #include "spincat/geometry/object.h"
-#include "spincat/io/formats/formats.h"
+#include "spincat/io/formats/format.h"
 
 namespace spincat {
 namespace {
 
-struct Format {
-  std::string_view extension;
-  Object (*read)(std::string_view bytes, const std::filesystem::path& folder, const ReadLimits& limits);
-};
-
-template <Object (*reader)(std::string_view, const ReadLimits&)>
-Object without_folder(std::string_view bytes, const std::filesystem::path&, const ReadLimits& limits) {
-  return reader(bytes, limits);
+bool is_one_of(std::string_view extension, const std::vector<std::string_view>& extensions) {
+  return std::ranges::find(extensions, extension) != extensions.end();
 }
 
-constexpr std::array formats{
-    Format{".off", without_folder<io::read_off>},
-    Format{".obj", without_folder<io::read_obj>},
-    Format{".ply", without_folder<io::read_ply>},
-    Format{".stl", without_folder<io::read_stl>},
-    Format{".pcd", without_folder<io::read_pcd>},
-    Format{".xyz", without_folder<io::read_xyz>},
-    Format{".xyzn", without_folder<io::read_xyz>},
-    Format{".pts", without_folder<io::read_xyz>},
-    Format{".asc", without_folder<io::read_xyz>},
-    Format{".gltf", io::read_gltf},
-    Format{".glb", io::read_gltf},
-    Format{".txt", without_folder<io::read_xyz>},
-};
-
-std::string lower_extension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') {
-      c = static_cast<char>(c - 'A' + 'a');
+// The format of a file that the user names; nullptr where spincat reads none of that name.
+const io::ObjectFormat* format_of(const std::filesystem::path& file) {
+  const std::string extension = lower_extension(file);
+  for (const io::ObjectFormat& format : io::object_formats()) {
+    if (is_one_of(extension, format.extensions) || is_one_of(extension, format.ambiguous_extensions)) {
+      return &format;
     }
   }
-  return extension;
-}
-
-const Format* format_of(const std::filesystem::path& file) {
-  const std::string extension = lower_extension(file);
-  const auto* found =
-      std::find_if(formats.begin(), formats.end(), [&](const Format& f) { return f.extension == extension; });
-  return found == formats.end() ? nullptr : found;
+  return nullptr;
 }
 
 [[noreturn]] void fail_as_model() {
@@ -92,7 +65,7 @@ Object read(const std::filesystem::path& file, const ReadLimits& limits) {
   if (std::filesystem::is_directory(file, error)) {
     throw InputError("is a folder, not an object");
   }
-  const Format* format = format_of(file);
+  const io::ObjectFormat* format = format_of(file);
   if (format == nullptr) {
     fail_as_unknown(file);
   }
@@ -103,19 +76,14 @@ Object read(const std::filesystem::path& file, const ReadLimits& limits) {
   if (bytes.starts_with(kFileMagic)) {
     fail_as_model();
   }
-  return format->read(bytes, file.parent_path(), limits);
+  return format->read({bytes, file.parent_path()}, limits);
 }
 
 }  // namespace
 
 Object read_object(const std::filesystem::path& file, const ReadLimits& limits) {
   try {
-    return read(file, limits);
-  } catch (const InputError& error) {
-    if (!error.file().empty()) {
-      throw;
-    }
-    throw InputError(file.string(), error.problem());
+    return naming_file(file, [&] { return read(file, limits); });
   } catch (const std::bad_alloc&) {
     throw RunError(file.string(), "not enough memory to read it");
   } catch (const std::length_error&) {  // more than any memory has
@@ -125,27 +93,22 @@ Object read_object(const std::filesystem::path& file, const ReadLimits& limits) 
 
 Object read_listed_object(const std::filesystem::path& file, const ReadLimits& limits) {
   std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(file, error);
-  const bool is_other = std::filesystem::exists(status) && !std::filesystem::is_directory(status) &&
-                        !std::filesystem::is_regular_file(status);
-  if (is_other) {
-    throw InputError(file.string(), "is not a regular file");
+  if (!std::filesystem::is_directory(file, error)) {  // read_object says so
+    expect_regular(file);
   }
   return read_object(file, limits);
 }
 
 bool is_object_file(const std::filesystem::path& file) {
-  const Format* format = format_of(file);
-  return format != nullptr && format->extension != ".txt";
+  const std::vector<std::string>& extensions = object_extensions();
+  return std::ranges::find(extensions, lower_extension(file)) != extensions.end();
 }
 
 const std::vector<std::string>& object_extensions() {
   static const std::vector<std::string> extensions = [] {
     std::vector<std::string> list;
-    for (const Format& format : formats) {
-      if (format.extension != ".txt") {
-        list.emplace_back(format.extension);
-      }
+    for (const io::ObjectFormat& format : io::object_formats()) {
+      list.insert(list.end(), format.extensions.begin(), format.extensions.end());
     }
     return list;
   }();

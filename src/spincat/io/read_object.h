@@ -26,11 +26,11 @@ Object read_object(const std::filesystem::path& file, const ReadLimits& limits =
 // of that name, and the others would wait for it.
 Object read_listed_object(const std::filesystem::path& file, const ReadLimits& limits = {});
 
-// Whether a file in a folder of objects is meant as one: read_object knows its extension, which is not .txt (there,
-// those are notes).
+// Whether a file in a folder of objects is meant as one: its extension is that of a format and not .txt (there, those
+// are notes).
 bool is_object_file(const std::filesystem::path& file);
 
-// The extensions of object files (as above, so without .txt), in lower case with their dot.
+// The extensions of all formats (as above, so without .txt), in lower case with their dot.
 const std::vector<std::string>& object_extensions();
 
 }  // namespace spincat

@@ -5,12 +5,12 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <system_error>
 #include <utility>
 
 #include "spincat/error.h"
+#include "spincat/files/paths.h"
 #include "spincat/parallel/packing.h"
 
 namespace spincat {
@@ -39,12 +39,6 @@ bool checks(std::string_view bytes) {
 
 std::string head_of(const RunIdentity& identity) {
   return with_checksum(Packer().add(kMagic).add(identity.settings).add(identity.data).take());
-}
-
-std::string lower_extension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  return extension;
 }
 
 }  // namespace

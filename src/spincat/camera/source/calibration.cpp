@@ -10,6 +10,7 @@
 
 #include "spincat/error.h"
 #include "spincat/files/file.h"
+#include "spincat/files/paths.h"
 #include "spincat/io/text_cursor.h"
 
 namespace spincat {
@@ -73,11 +74,7 @@ CameraCalibration parse_calibration(std::string_view text) {
 }
 
 CameraCalibration read_calibration(const std::filesystem::path& file) {
-  try {
-    return parse_calibration(read_file(file));
-  } catch (const InputError& error) {
-    throw error.file().empty() ? InputError(file.string(), error.problem()) : error;
-  }
+  return naming_file(file, [&] { return parse_calibration(read_file(file)); });
 }
 
 std::string calibration_text(const CameraCalibration& calibration) {

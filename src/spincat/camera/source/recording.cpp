@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <new>
 #include <string_view>
@@ -15,6 +14,7 @@
 #include "spincat/camera/source/frame_source.h"
 #include "spincat/error.h"
 #include "spincat/files/file.h"
+#include "spincat/files/paths.h"
 #include "spincat/files/system_error_text.h"
 #include "spincat/io/organized_cloud.h"
 
@@ -24,12 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kFramesPerSecond = 30.0;  // where a recording tells no times
-
-bool has_extension(const fs::path& file, std::string_view extension) {
-  std::string own = file.extension().string();
-  std::ranges::transform(own, own.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return own == extension;
-}
 
 // Names in the order in which people count: frame9 before frame10.
 bool natural_less(const std::string& a, const std::string& b) {
@@ -61,25 +55,6 @@ bool natural_less(const std::string& a, const std::string& b) {
   return a.size() - i != b.size() - j ? a.size() - i < b.size() - j : a < b;
 }
 
-// What a path leads to; nothing there is an answer, too.
-fs::file_status status_of(const fs::path& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (!fs::status_known(status)) {
-    throw InputError(path.string(), system_error_text(error.value()));
-  }
-  return status;
-}
-
-// What a folder holds or a list names nobody chose by hand: it may be a device that never ends, or a pipe that nobody
-// writes to.
-void expect_regular(const fs::path& file) {
-  const fs::file_status status = status_of(file);
-  if (fs::exists(status) && !fs::is_regular_file(status)) {
-    throw InputError(file.string(), fs::is_directory(status) ? "is a folder, not a file" : "is not a regular file");
-  }
-}
-
 // A list without its last line where that was cut off, by a power cut or a full disk, while it was written: it has no
 // end, and it is no line of a list or names no file that is there. What is left of one frame is no reason to refuse all
 // others; and the last line of many a list that is whole has no end.
@@ -100,12 +75,10 @@ std::string_view without_cut_line(std::string_view text, const fs::path& folder)
 
 FrameList listed_files(const fs::path& list) {
   expect_regular(list);
-  try {
+  return naming_file(list, [&] {
     const std::string text = read_file(list);
     return parse_depth_list(without_cut_line(text, list.parent_path()));
-  } catch (const InputError& error) {
-    throw error.file().empty() ? InputError(list.string(), error.problem()) : error;
-  }
+  });
 }
 
 FrameList files_in(const fs::path& folder) {
@@ -117,9 +90,10 @@ FrameList files_in(const fs::path& folder) {
   std::error_code error;
   fs::directory_iterator next(folder, error);
   for (; !error && next != fs::directory_iterator(); next.increment(error)) {
-    if (has_extension(next->path(), ".png")) {
+    const std::string extension = lower_extension(next->path());
+    if (extension == ".png") {
       pictures.push_back(next->path().filename().string());
-    } else if (has_extension(next->path(), ".pcd")) {
+    } else if (extension == ".pcd") {
       clouds.push_back(next->path().filename().string());
     }
   }
@@ -215,13 +189,11 @@ class Recording : public FrameSource {
     const std::size_t round = at_++ / frames_.size();
     const fs::path file = folder_ / listed.file;
     try {
-      Frame frame = read(file);
+      Frame frame = naming_file(file, [&] { return read(file); });
       frame.name = file.filename().string();
       // Not 0 * length(): a list may name times so far apart that it is infinite.
       frame.time = listed.time + (round > 0 ? static_cast<double>(round) * length() : 0.0);
       return frame;
-    } catch (const InputError& error) {
-      throw error.file().empty() ? InputError(file.string(), error.problem()) : error;
     } catch (const std::bad_alloc&) {  // of this frame: the next one may be smaller
       throw InputError(file.string(), "there is not enough memory for it");
     }
@@ -242,7 +214,7 @@ class Recording : public FrameSource {
       expect_regular(file);
     }
     const std::string bytes = read_file(file);
-    if (has_extension(file, ".pcd")) {
+    if (lower_extension(file) == ".pcd") {
       return frame_of(read_organized_pcd(bytes, limits_));
     }
     Frame frame;

@@ -17,10 +17,10 @@
 #include "spincat/error.h"
 #include "spincat/geometry/object.h"
 #include "spincat/io/formats/binary.h"
-#include "spincat/io/formats/formats.h"
+#include "spincat/io/formats/format.h"
 #include "spincat/io/formats/gltf_document.h"
 #include "spincat/io/formats/object_builder.h"
-#include "spincat/io/read_object.h"
+#include "spincat/io/read_limits.h"
 
 namespace spincat::io {
 namespace {
@@ -296,11 +296,15 @@ class SceneReader {
   std::uint64_t primitives_ = 0;  // looked at so far, those of a mesh each time that it is shown
 };
 
+Object read_gltf(const FileContent& file, const ReadLimits& limits) {
+  const GltfDocument document = read_gltf_document(file.bytes, file.folder, limits);
+  return SceneReader(document, limits).read();
+}
+
 }  // namespace
 
-Object read_gltf(std::string_view bytes, const std::filesystem::path& folder, const ReadLimits& limits) {
-  const GltfDocument document = read_gltf_document(bytes, folder, limits);
-  return SceneReader(document, limits).read();
+ObjectFormat gltf_format() {
+  return {.extensions = {".gltf", ".glb"}, .read = read_gltf};
 }
 
 }  // namespace spincat::io

@@ -7,9 +7,9 @@
 
 #include "spincat/error.h"
 #include "spincat/geometry/object.h"
-#include "spincat/io/formats/formats.h"
+#include "spincat/io/formats/format.h"
 #include "spincat/io/formats/object_builder.h"
-#include "spincat/io/read_object.h"
+#include "spincat/io/read_limits.h"
 #include "spincat/io/text_cursor.h"
 
 namespace spincat::io {
@@ -96,10 +96,14 @@ class ObjReader {
   std::size_t highest_index_line_ = 0;
 };
 
+Object read_obj(const FileContent& file, const ReadLimits& limits) {
+  return ObjReader(file.bytes, limits).read();
+}
+
 }  // namespace
 
-Object read_obj(std::string_view bytes, const ReadLimits& limits) {
-  return ObjReader(bytes, limits).read();
+ObjectFormat obj_format() {
+  return {.extensions = {".obj"}, .read = read_obj};
 }
 
 }  // namespace spincat::io

@@ -15,7 +15,7 @@
 #include "spincat/error.h"
 #include "spincat/geometry/object.h"
 #include "spincat/io/formats/vertex_merger.h"
-#include "spincat/io/read_object.h"
+#include "spincat/io/read_limits.h"
 
 namespace spincat::io {
 

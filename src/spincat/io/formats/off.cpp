@@ -6,9 +6,9 @@
 #include <string_view>
 
 #include "spincat/geometry/object.h"
-#include "spincat/io/formats/formats.h"
+#include "spincat/io/formats/format.h"
 #include "spincat/io/formats/object_builder.h"
-#include "spincat/io/read_object.h"
+#include "spincat/io/read_limits.h"
 #include "spincat/io/text_cursor.h"
 
 namespace spincat::io {
@@ -95,10 +95,8 @@ void check_fits(const TextCursor& text, std::uint64_t count, const char* what, s
   }
 }
 
-}  // namespace
-
-Object read_off(std::string_view bytes, const ReadLimits& limits) {
-  TextCursor text(bytes);
+Object read_off(const FileContent& file, const ReadLimits& limits) {
+  TextCursor text(file.bytes);
   ObjectBuilder object(limits);
   const Header header = read_header(text);
   text.word_follows();
@@ -120,6 +118,12 @@ Object read_off(std::string_view bytes, const ReadLimits& limits) {
     read_face(text, vertices, object);
   }
   return object.finish();
+}
+
+}  // namespace
+
+ObjectFormat off_format() {
+  return {.extensions = {".off"}, .read = read_off};
 }
 
 }  // namespace spincat::io

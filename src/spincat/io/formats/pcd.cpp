@@ -14,11 +14,11 @@
 #include "spincat/error.h"
 #include "spincat/geometry/object.h"
 #include "spincat/io/formats/binary.h"
-#include "spincat/io/formats/formats.h"
+#include "spincat/io/formats/format.h"
 #include "spincat/io/formats/lzf.h"
 #include "spincat/io/formats/object_builder.h"
 #include "spincat/io/organized_cloud.h"
-#include "spincat/io/read_object.h"
+#include "spincat/io/read_limits.h"
 #include "spincat/io/text_cursor.h"
 
 namespace spincat::io {
@@ -365,10 +365,8 @@ void read_points(const Header& header, TextCursor& text, std::string_view bytes,
   }
 }
 
-}  // namespace
-
-Object read_pcd(std::string_view bytes, const ReadLimits& limits) {
-  TextCursor text(bytes);
+Object read_pcd(const FileContent& file, const ReadLimits& limits) {
+  TextCursor text(file.bytes);
   const Header header = HeaderReader(text).read();
   ObjectBuilder object(limits);
   object.check_vertices(header.points);
@@ -376,8 +374,14 @@ Object read_pcd(std::string_view bytes, const ReadLimits& limits) {
     object.set_sensor(*header.sensor);
   }
   ObjectSink sink(object);
-  read_points(header, text, bytes, limits, sink);
+  read_points(header, text, file.bytes, limits, sink);
   return object.finish();
+}
+
+}  // namespace
+
+ObjectFormat pcd_format() {
+  return {.extensions = {".pcd"}, .read = read_pcd};
 }
 
 }  // namespace spincat::io

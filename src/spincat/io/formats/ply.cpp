@@ -16,9 +16,9 @@
 #include "spincat/error.h"
 #include "spincat/geometry/object.h"
 #include "spincat/io/formats/binary.h"
-#include "spincat/io/formats/formats.h"
+#include "spincat/io/formats/format.h"
 #include "spincat/io/formats/object_builder.h"
-#include "spincat/io/read_object.h"
+#include "spincat/io/read_limits.h"
 #include "spincat/io/text_cursor.h"
 
 namespace spincat::io {
@@ -381,17 +381,21 @@ class PlyReader {
   bool is_mesh_ = false;
 };
 
-}  // namespace
-
-Object read_ply(std::string_view bytes, const ReadLimits& limits) {
-  TextCursor text(bytes, {.hash_comments = false});
+Object read_ply(const FileContent& file, const ReadLimits& limits) {
+  TextCursor text(file.bytes, {.hash_comments = false});
   const Header header = read_header(text);
   if (header.encoding == Encoding::ascii) {
     return PlyReader(header, TextBody(text), limits).read();
   }
-  const std::string_view body = bytes.substr(bytes.size() - text.bytes_left());
+  const std::string_view body = file.bytes.substr(file.bytes.size() - text.bytes_left());
   const std::endian order = header.encoding == Encoding::little_endian ? std::endian::little : std::endian::big;
   return PlyReader(header, BinaryBody(body, order), limits).read();
+}
+
+}  // namespace
+
+ObjectFormat ply_format() {
+  return {.extensions = {".ply"}, .read = read_ply};
 }
 
 }  // namespace spincat::io

@@ -8,10 +8,10 @@
 #include "spincat/error.h"
 #include "spincat/geometry/object.h"
 #include "spincat/io/formats/binary.h"
-#include "spincat/io/formats/formats.h"
+#include "spincat/io/formats/format.h"
 #include "spincat/io/formats/object_builder.h"
 #include "spincat/io/formats/vertex_merger.h"
-#include "spincat/io/read_object.h"
+#include "spincat/io/read_limits.h"
 #include "spincat/io/text_cursor.h"
 
 namespace spincat::io {
@@ -127,10 +127,14 @@ Object read_binary(std::string_view bytes, const ReadLimits& limits) {
   return object.finish();
 }
 
+Object read_stl(const FileContent& file, const ReadLimits& limits) {
+  return is_text(file.bytes) ? TextStlReader(file.bytes, limits).read() : read_binary(file.bytes, limits);
+}
+
 }  // namespace
 
-Object read_stl(std::string_view bytes, const ReadLimits& limits) {
-  return is_text(bytes) ? TextStlReader(bytes, limits).read() : read_binary(bytes, limits);
+ObjectFormat stl_format() {
+  return {.extensions = {".stl"}, .read = read_stl};
 }
 
 }  // namespace spincat::io

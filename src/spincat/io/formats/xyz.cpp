@@ -8,9 +8,9 @@
 #include <string_view>
 
 #include "spincat/geometry/object.h"
-#include "spincat/io/formats/formats.h"
+#include "spincat/io/formats/format.h"
 #include "spincat/io/formats/object_builder.h"
-#include "spincat/io/read_object.h"
+#include "spincat/io/read_limits.h"
 #include "spincat/io/text_cursor.h"
 
 namespace spincat::io {
@@ -103,10 +103,14 @@ class XyzReader {
   std::uint64_t rows_ = 0;
 };
 
+Object read_xyz(const FileContent& file, const ReadLimits& limits) {
+  return XyzReader(file.bytes, limits).read();
+}
+
 }  // namespace
 
-Object read_xyz(std::string_view bytes, const ReadLimits& limits) {
-  return XyzReader(bytes, limits).read();
+ObjectFormat xyz_format() {
+  return {.extensions = {".xyz", ".xyzn", ".pts", ".asc"}, .ambiguous_extensions = {".txt"}, .read = read_xyz};
 }
 
 }  // namespace spincat::io

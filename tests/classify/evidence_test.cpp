@@ -103,7 +103,7 @@ TEST(Evidence, LeavingOutIsWhatTheMarginFallsBy) {
       const std::size_t from = k < left_out ? k : k + 1;
       others.set(k, object.spin_points.position(from), object.spin_points.normal(from));
     }
-    const auto sums = make_mean_image()->begin(object.surface, others, params);
+    const auto sums = make_encoding("mean-image")->begin(object.surface, others, params);
     std::vector<double> values(sums->size(), 0.0);
     make_spin_images(object.surface, others, params,
                      [&](const SpinImageBlock& block) { sums->accumulate(block, values); });

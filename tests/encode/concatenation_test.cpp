@@ -28,7 +28,7 @@ SpinImageParams small_images(int width = 2) {
 TEST(Concatenation, IsTheRowsOfEachImageInTheOrderOfTheSpinPoints) {
   const OrientedPoints points(3);
   const SpinImageParams params = small_images();
-  const auto sums = make_concatenation()->begin(points, points, params);
+  const auto sums = make_encoding("concatenation")->begin(points, points, params);
   ASSERT_EQ(sums->size(), 12U);
   std::vector<double> values(12, 0.0);
   sums->accumulate(block_of(2, 1, params.shape(), 9), values);  // the last image first
@@ -45,7 +45,7 @@ TEST(Concatenation, IsTheRowsOfEachImageInTheOrderOfTheSpinPoints) {
 TEST(Concatenation, PartsAddUpToTheWhole) {
   const OrientedPoints points(3);
   const SpinImageParams params = small_images();
-  const auto sums = make_concatenation()->begin(points, points, params);
+  const auto sums = make_encoding("concatenation")->begin(points, points, params);
   std::vector<double> whole(12, 0.0);
   std::vector<double> a(12, 0.0);
   std::vector<double> b(12, 0.0);
@@ -59,7 +59,7 @@ TEST(Concatenation, PartsAddUpToTheWhole) {
 
 TEST(Concatenation, OfEmptyImagesIsAllZeros) {
   const OrientedPoints points(1);
-  const auto sums = make_concatenation()->begin(points, points, small_images());
+  const auto sums = make_encoding("concatenation")->begin(points, points, small_images());
   EXPECT_EQ(sums->finish(std::vector<double>(4, 0.0)).values, std::vector<float>(4, 0.0F));
 }
 
@@ -67,9 +67,9 @@ TEST(Concatenation, TakesAnyImages) {
   for (const SpinConvention convention : {SpinConvention::johnson, SpinConvention::pcl}) {
     SpinImageParams params = small_images(7);
     params.convention = convention;
-    make_concatenation()->check(params);
+    make_encoding("concatenation")->check(params);
     const OrientedPoints points(4);
-    EXPECT_EQ(make_concatenation()->begin(points, points, params)->size(), 4 * params.shape().size());
+    EXPECT_EQ(make_encoding("concatenation")->begin(points, points, params)->size(), 4 * params.shape().size());
   }
 }
 

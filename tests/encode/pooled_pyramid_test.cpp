@@ -52,7 +52,7 @@ SpinImageBlock block_of(const SpinImages& images, std::size_t first, std::size_t
 
 FeatureVector encoded(const OrientedPoints& surface, const OrientedPoints& spin_points, const SpinImages& images,
                       const SpinImageParams& params) {
-  const auto sums = make_pooled_pyramid()->begin(surface, spin_points, params);
+  const auto sums = make_encoding("pooled-pyramid")->begin(surface, spin_points, params);
   std::vector<double> values(sums->size(), 0.0);
   sums->accumulate(block_of(images, 0, images.count()), values);
   return sums->finish(values);
@@ -177,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, PooledPyramidOf,
 
 TEST(PooledPyramid, OfTheDefaultSettingsHas4800Numbers) {
   const OrientedPoints points(4);
-  EXPECT_EQ(make_pooled_pyramid()->begin(points, points, soft_images(40))->size(), 4800U);
+  EXPECT_EQ(make_encoding("pooled-pyramid")->begin(points, points, soft_images(40))->size(), 4800U);
 }
 
 TEST(PooledPyramid, SortsSpinPointsIntoBandsByRThenH) {
@@ -211,7 +211,7 @@ TEST(PooledPyramid, BlocksGiveTheSameSumsWhereverTheyAreAccumulated) {
   const OrientedPoints points = random_points(130, random);
   const SpinImageParams params = soft_images(8);
   const SpinImages images = random_images(130, params.shape(), random);
-  const auto sums = make_pooled_pyramid()->begin(points, points, params);
+  const auto sums = make_encoding("pooled-pyramid")->begin(points, points, params);
   std::vector<double> together(sums->size(), 0.0);
   std::vector<double> added(sums->size(), 0.0);
   sums->accumulate(block_of(images, 0, 130), together);
@@ -253,7 +253,7 @@ TEST(PooledPyramid, OfEqualImagesHasNoDeviation) {
 }
 
 TEST(PooledPyramid, RefusesImagesThatItCannotReduce) {
-  const auto encoding = make_pooled_pyramid();
+  const auto encoding = make_encoding("pooled-pyramid");
   encoding->check(soft_images(8));
   EXPECT_NE(input_error([&] { encoding->check(soft_images(20)); }).find("divisible by 8, not 20"), std::string::npos);
   SpinImageParams params;
@@ -269,7 +269,7 @@ TEST(PooledPyramid, WithoutAnImageIsTheRecipeWithoutIt) {
   for (const std::size_t count : {1U, 4U, 13U}) {  // with 1 and 4 a band loses its only image
     const OrientedPoints spin_points = random_points(count, random);
     const SpinImages images = random_images(count, params.shape(), random);
-    const auto object = make_pooled_pyramid()->begin(surface, spin_points, params);
+    const auto object = make_encoding("pooled-pyramid")->begin(surface, spin_points, params);
     std::vector<double> sums(object->size(), 0.0);
     object->accumulate(block_of(images, 0, count), sums);
     for (std::size_t k = 0; k < count; ++k) {
@@ -291,7 +291,7 @@ TEST(PooledPyramid, SharesOfAllImagesAddUp) {
   const OrientedPoints surface = random_points(50, random);
   const OrientedPoints spin_points = random_points(13, random);
   const SpinImages images = random_images(13, params.shape(), random);
-  const auto object = make_pooled_pyramid()->begin(surface, spin_points, params);
+  const auto object = make_encoding("pooled-pyramid")->begin(surface, spin_points, params);
   std::vector<double> sums(object->size(), 0.0);
   object->accumulate(block_of(images, 0, 13), sums);
   const std::vector<float> values = object->finish(sums).values;
@@ -323,7 +323,7 @@ TEST(PooledPyramid, AMeanIsSharedByTheRootsAndADeviationByTheirDistances) {
   const std::size_t bin = 3 * 8;  // channel 0, row 3, column 0: cell 0 of level 0
   images.image(3)[bin] = 1.0F;
   images.image(4)[bin] = 9.0F;
-  const auto object = make_pooled_pyramid()->begin(OrientedPoints(1), spin_points, params);
+  const auto object = make_encoding("pooled-pyramid")->begin(OrientedPoints(1), spin_points, params);
   std::vector<double> sums(object->size(), 0.0);
   object->accumulate(block_of(images, 0, 5), sums);
   const std::vector<float> values = object->finish(sums).values;

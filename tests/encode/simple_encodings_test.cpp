@@ -48,7 +48,7 @@ FeatureVector encoded(const Encoding& encoding, const SpinImageParams& params, s
 
 TEST(MeanImage, IsTheMeanScaledToLengthOne) {
   const SpinImageParams params = soft_params(3);
-  const FeatureVector found = encoded(*make_mean_image(), params, 5, 10);
+  const FeatureVector found = encoded(*make_encoding("mean-image"), params, 5, 10);
   ASSERT_EQ(found.values.size(), 18U);
   EXPECT_EQ(found.blocks, std::vector<std::uint32_t>{18});
   EXPECT_EQ(found.encoding, "mean-image");
@@ -66,18 +66,19 @@ TEST(MeanImage, IsTheMeanScaledToLengthOne) {
 
 TEST(MeanImage, DoesNotDependOnTheBlocks) {
   const SpinImageParams params = soft_params(3);
-  EXPECT_EQ(encoded(*make_mean_image(), params, 7, 10, 2).values, encoded(*make_mean_image(), params, 7, 10, 7).values);
+  EXPECT_EQ(encoded(*make_encoding("mean-image"), params, 7, 10, 2).values,
+            encoded(*make_encoding("mean-image"), params, 7, 10, 7).values);
 }
 
 TEST(MeanImage, OfEmptyImagesIsZero) {
-  const auto object = make_mean_image()->begin(OrientedPoints(1), OrientedPoints(1), soft_params(3));
+  const auto object = make_encoding("mean-image")->begin(OrientedPoints(1), OrientedPoints(1), soft_params(3));
   EXPECT_EQ(object->finish(std::vector<double>(18, 0.0)).values, std::vector<float>(18, 0.0F));
 }
 
 TEST(BagOfFeatures, LocalFeaturesAreRootsOfSharesInCells) {
   // 20 x 20 bins become 10 x 10 cells of 2 x 2 bins.
   const SpinImageParams params = soft_params(20);
-  const FeatureVector found = encoded(*make_bag_of_features(), params, 4, 50);
+  const FeatureVector found = encoded(*make_encoding("bag-of-features"), params, 4, 50);
   EXPECT_EQ(found.local_size, 200U);
   ASSERT_EQ(found.values.size(), 200U * kLocalFeatures);
   const SpinImages images = numbered_images(4, params);
@@ -100,8 +101,8 @@ TEST(BagOfFeatures, LocalFeaturesAreRootsOfSharesInCells) {
 
 TEST(BagOfFeatures, FewImagesAreRepeatedAndManyAreCut) {
   const SpinImageParams params = soft_params(4);
-  const FeatureVector few = encoded(*make_bag_of_features(), params, 3, 10);
-  const FeatureVector many = encoded(*make_bag_of_features(), params, kLocalFeatures + 40, 10);
+  const FeatureVector few = encoded(*make_encoding("bag-of-features"), params, 3, 10);
+  const FeatureVector many = encoded(*make_encoding("bag-of-features"), params, kLocalFeatures + 40, 10);
   ASSERT_EQ(few.local_size, 32U);
   ASSERT_EQ(few.values.size(), many.values.size());
   for (std::size_t i = 0; i < 32; ++i) {
@@ -115,20 +116,20 @@ TEST(BagOfFeatures, AnyImageWillDo) {
   SpinImageParams params;
   params.convention = SpinConvention::pcl;
   params.image_width = 8;
-  make_bag_of_features()->check(params);
-  EXPECT_TRUE(make_bag_of_features()->gives_local_features());
-  EXPECT_FALSE(make_mean_image()->gives_local_features());
-  EXPECT_EQ(encoded(*make_bag_of_features(), params, 2, 10).local_size, 90U);  // 9 x 17 bins: 9 x 10 cells
+  make_encoding("bag-of-features")->check(params);
+  EXPECT_TRUE(make_encoding("bag-of-features")->gives_local_features());
+  EXPECT_FALSE(make_encoding("mean-image")->gives_local_features());
+  EXPECT_EQ(encoded(*make_encoding("bag-of-features"), params, 2, 10).local_size, 90U);  // 9 x 17 bins: 9 x 10 cells
 }
 
 TEST(MeanImage, WithoutAnImageIsTheMeanOfTheOthers) {
   const SpinImageParams params = soft_params(3);
-  const auto object = make_mean_image()->begin(OrientedPoints(10), OrientedPoints(4), params);
+  const auto object = make_encoding("mean-image")->begin(OrientedPoints(10), OrientedPoints(4), params);
   const SpinImageBlock all{0, numbered_images(4, params)};
   std::vector<double> sums(object->size(), 0.0);
   object->accumulate(all, sums);
   // Without image 3 what encoded() gives of the first three.
-  const std::vector<float> expected = encoded(*make_mean_image(), params, 3, 10).values;
+  const std::vector<float> expected = encoded(*make_encoding("mean-image"), params, 3, 10).values;
   const std::vector<float> found = object->finish_without(all, 3, sums).values;
   for (std::size_t bin = 0; bin < expected.size(); ++bin) {
     EXPECT_NEAR(found[bin], expected[bin], 1e-6);
@@ -158,7 +159,7 @@ TEST(Shares, OfMeanImageAndConcatenationAddUpImageByImage) {
 
 TEST(BagOfFeatures, WithoutAnImageOthersTakeItsPlace) {
   const SpinImageParams params = soft_params(4);
-  const auto object = make_bag_of_features()->begin(OrientedPoints(10), OrientedPoints(3), params);
+  const auto object = make_encoding("bag-of-features")->begin(OrientedPoints(10), OrientedPoints(3), params);
   const SpinImageBlock all{0, numbered_images(3, params)};
   std::vector<double> sums(object->size(), 0.0);
   object->accumulate(all, sums);

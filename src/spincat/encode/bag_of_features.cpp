@@ -1,3 +1,6 @@
+// The images of kLocalFeatures spin points one by one, each reduced to at most 10 x 10 cells a channel, as square roots
+// of shares of the surface points: local features, to be counted by a codebook that was learned from training objects
+// (codebook.h) before judges see them.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

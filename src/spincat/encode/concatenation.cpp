@@ -1,3 +1,5 @@
+// The paper's: the rows of each image one after the other, the images one after the other, in the order of the spin
+// points: M W W numbers, scaled to length 1 together; one block.
 #include <algorithm>
 #include <cstdint>
 #include <vector>

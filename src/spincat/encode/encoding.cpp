@@ -4,11 +4,26 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 
 #include "spincat/error.h"
 
 namespace spincat {
+
+#define ENCODING(name) std::unique_ptr<Encoding> make_##name();
+#include "spincat/encode/encodings.inc"
+#undef ENCODING
+
+namespace {
+
+constexpr std::array kMakers = {
+#define ENCODING(name) make_##name,
+#include "spincat/encode/encodings.inc"
+#undef ENCODING
+};
+
+}  // namespace
 
 std::vector<double> Encoding::ObjectSums::sums_of_image(const SpinImageBlock& block, std::size_t k) const {
   SpinImageBlock alone{block.first + k, SpinImages(1, block.images.shape())};
@@ -26,23 +41,21 @@ FeatureVector Encoding::ObjectSums::finish_without(const SpinImageBlock& block, 
 }
 
 std::unique_ptr<Encoding> make_encoding(std::string_view name) {
-  if (name == "pooled-pyramid") {
-    return make_pooled_pyramid();
+  const auto found = std::ranges::find(encoding_names(), name);
+  if (found == encoding_names().end()) {
+    throw InputError(fmt::format("encoding '{}' is not known (one of {})", name, fmt::join(encoding_names(), ", ")));
   }
-  if (name == "concatenation") {
-    return make_concatenation();
-  }
-  if (name == "mean-image") {
-    return make_mean_image();
-  }
-  if (name == "bag-of-features") {
-    return make_bag_of_features();
-  }
-  throw InputError(fmt::format("encoding '{}' is not known (one of {})", name, fmt::join(encoding_names(), ", ")));
+  return kMakers[static_cast<std::size_t>(found - encoding_names().begin())]();
 }
 
 const std::vector<std::string>& encoding_names() {
-  static const std::vector<std::string> names = {"pooled-pyramid", "concatenation", "mean-image", "bag-of-features"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const auto& make : kMakers) {
+      all.emplace_back(make()->name());
+    }
+    return all;
+  }();
   return names;
 }
 

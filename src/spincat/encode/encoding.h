@@ -75,26 +75,10 @@ class Encoding::ObjectSums {
   std::vector<double> sums_of_image(const SpinImageBlock& block, std::size_t k) const;
 };
 
-// The paper's: the rows of each image one after the other, the images one after the other, in the order of the spin
-// points: M W W numbers, scaled to length 1 together; one block.
-std::unique_ptr<Encoding> make_concatenation();
-
-// Our default: each image is reduced to a pyramid of three smaller ones (the inner quarter at full resolution, the
-// inner half and the whole, coarser), square roots are taken, and the mean and the standard deviation of every bin over
-// the spin points of each of four bands is one feature, each image a block; docs/how-it-works/encoding.md. Needs an
-// image width divisible by 8 in the johnson convention.
-std::unique_ptr<Encoding> make_pooled_pyramid();
-
-// The mean of all images, scaled to length 1: the simplest thing that forgets the order of the spin points. One block.
-std::unique_ptr<Encoding> make_mean_image();
-
-// The images of kLocalFeatures spin points one by one, each reduced to at most 10 x 10 cells a channel, as square roots
-// of shares of the surface points: local features, to be counted by a codebook that was learned from training objects
-// (codebook.h) before judges see them.
-std::unique_ptr<Encoding> make_bag_of_features();
-
-// The encoding called `name`. Throws InputError that lists the names when there is none.
+// The encoding called `name`, one of encodings.inc; its file says what it does. Throws InputError that lists the names
+// when there is none.
 std::unique_ptr<Encoding> make_encoding(std::string_view name);
+// Of all encodings, the default first.
 const std::vector<std::string>& encoding_names();
 
 }  // namespace spincat

@@ -1,3 +1,4 @@
+// The mean of all images, scaled to length 1: the simplest thing that forgets the order of the spin points. One block.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

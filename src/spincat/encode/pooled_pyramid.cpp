@@ -1,3 +1,7 @@
+// Our default: each image is reduced to a pyramid of three smaller ones (the inner quarter at full resolution, the
+// inner half and the whole, coarser), square roots are taken, and the mean and the standard deviation of every bin over
+// the spin points of each of four bands is one feature, each image a block; docs/how-it-works/encoding.md. Needs an
+// image width divisible by 8 in the johnson convention.
 #include <fmt/format.h>
 
 #include <algorithm>

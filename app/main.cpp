@@ -13,9 +13,7 @@
 #include <memory>
 #include <new>
 #include <string>
-#include <string_view>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 #include "app/commands/commands.h"
@@ -96,12 +94,8 @@ int run(int argc, char** argv, TaskFarm& farm) {
       "spincat COMMAND --help tells more.");
   cli.set_version_flag("--version", "spincat " SPINCAT_VERSION);
   cli.require_subcommand(1);
-  const std::vector<std::pair<const char*, Command>> commands = {
-      {"train", add_train(cli)},  {"classify", add_classify(cli)}, {"evaluate", add_evaluate(cli)},
-      {"sweep", add_sweep(cli)},  {"spin", add_spin(cli)},         {"info", add_info(cli)},
-      {"camera", add_camera(cli)}};
-  const auto is_called = [&](const auto& command) { return std::string_view(argv[1]) == command.first; };
-  if (argc > 1 && argv[1][0] != '-' && std::ranges::none_of(commands, is_called)) {
+  const std::vector<NamedCommand> commands = add_commands(cli);
+  if (argc > 1 && argv[1][0] != '-' && std::ranges::find(commands, argv[1], &NamedCommand::name) == commands.end()) {
     throw InputError(fmt::format("there is no command '{}' (spincat --help lists them)", argv[1]));
   }
   try {
@@ -109,9 +103,9 @@ int run(int argc, char** argv, TaskFarm& farm) {
   } catch (const CLI::ParseError& error) {
     return flush_output(report_parse_error(cli, error));
   }
-  for (const auto& [name, command] : commands) {
-    if (cli.got_subcommand(name)) {
-      return flush_output(command(farm));
+  for (const NamedCommand& command : commands) {
+    if (cli.got_subcommand(command.name)) {
+      return flush_output(command.run(farm));
     }
   }
   return 2;

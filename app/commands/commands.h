@@ -1,9 +1,10 @@
-// The subcommands. Each one declares its options on its CLI::App and returns what is to be run when it was chosen, with
-// the other ranks of this run at its service; that returns the exit code and throws spincat::Error.
+// The subcommands, one file and one line of commands.inc each.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace spincat {
 class TaskFarm;
@@ -11,14 +12,16 @@ class TaskFarm;
 
 namespace spincat::app {
 
+// What is to be run when a subcommand was chosen, with the other ranks of this run at its service. Returns the exit
+// code and throws spincat::Error.
 using Command = std::function<int(TaskFarm& farm)>;
 
-Command add_train(CLI::App& parent);
-Command add_classify(CLI::App& parent);
-Command add_evaluate(CLI::App& parent);
-Command add_sweep(CLI::App& parent);
-Command add_spin(CLI::App& parent);
-Command add_info(CLI::App& parent);
-Command add_camera(CLI::App& parent);
+struct NamedCommand {
+  std::string name;
+  Command run;
+};
+
+// Has every subcommand declare its options on a CLI::App of its own below `parent`.
+std::vector<NamedCommand> add_commands(CLI::App& parent);
 
 }  // namespace spincat::app

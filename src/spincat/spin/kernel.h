@@ -24,7 +24,7 @@ struct SpinPoint {
 // integers in units of 2^-23: exact, so that they come out the same in whatever order and on however many threads they
 // are added. Bilinear binning sums the moments 1, u, v, uv of the place (u, v) in the cell, from which the shares of
 // the four neighbours follow; nearest binning sums 1. A soft angle test sums the same once more, weighted by the
-// squared cosine. All sums but those of 1 have a known bias (kernel.cpp).
+// squared cosine. All sums but those of 1 have a known bias (kernel_places-inl.h).
 //
 //   bilinear        [cell][1 u v uv]
 //   bilinear, soft  [plain, weighted][cell][1 u v uv]

@@ -43,9 +43,9 @@ void Levels::reduce(const float* image) {
   const std::size_t half = width / 2;
   const std::size_t quarter = width / 4;
   copy_square(image, width, (width - quarter) / 2, cells[0]);
-  sum_2x2(image, width, pairs);
-  copy_square(pairs.data(), half, (half - quarter) / 2, cells[1]);
-  sum_2x2(pairs.data(), half, cells[2]);
+  sum_2x2(image, width, pairs_);
+  copy_square(pairs_.data(), half, (half - quarter) / 2, cells[1]);
+  sum_2x2(pairs_.data(), half, cells[2]);
 }
 
 // The W/4 x W/4 values of a picture of `columns` columns from row `first_row` and column 0 on.
@@ -61,10 +61,10 @@ void Levels::sum_2x2(const float* from, std::size_t columns, std::vector<float>&
     const float* upper = from + 2 * row * columns;
     const float* lower = upper + columns;
     for (std::size_t column = 0; column < columns; ++column) {
-      line[column] = upper[column] + lower[column];
+      line_[column] = upper[column] + lower[column];
     }
     for (std::size_t column = 0; column < columns / 2; ++column) {
-      to[row * (columns / 2) + column] = line[2 * column] + line[2 * column + 1];
+      to[row * (columns / 2) + column] = line_[2 * column] + line_[2 * column + 1];
     }
   }
 }

@@ -21,7 +21,7 @@ std::vector<std::uint8_t> bands_of(const OrientedPoints& surface, const Oriented
 // The pyramid of one channel of an image of W x W: three images of W/4 x W/4 cells around alpha = beta = 0, whose cells
 // are single bins, sums of 2 x 2 and sums of 4 x 4.
 struct Levels {
-  explicit Levels(std::size_t image_width) : width(image_width), pairs(width / 2 * (width / 2)), line(width) {
+  explicit Levels(std::size_t image_width) : width(image_width), pairs_(width / 2 * (width / 2)), line_(width) {
     for (std::vector<float>& level : cells) {
       level.resize(width / 4 * (width / 4));
     }
@@ -36,8 +36,8 @@ struct Levels {
   void copy_square(const float* from, std::size_t columns, std::size_t first_row, std::vector<float>& to) const;
   void sum_2x2(const float* from, std::size_t columns, std::vector<float>& to);
 
-  std::vector<float> pairs;  // sums of 2 x 2 over the whole image
-  std::vector<float> line;
+  std::vector<float> pairs_;  // sums of 2 x 2 over the whole image
+  std::vector<float> line_;
 };
 
 }  // namespace spincat

@@ -193,7 +193,9 @@ TEST(WriteFile, KeepsTheOldContentWhenItFails) {
 }
 
 TEST(WriteFile, RespectsWriteProtection) {
-  if (::geteuid() == 0) GTEST_SKIP() << "root may write everything";
+  if (::geteuid() == 0) {
+    GTEST_SKIP() << "root may write everything";
+  }
   const test::TempDir dir;
   const fs::path file = dir.write("file", "old");
   fs::permissions(file, fs::perms(0444));

@@ -52,12 +52,16 @@ class Writer {
  public:
   explicit Writer(const std::filesystem::path& folder) {
     int ready[2];
-    if (::pipe(ready) != 0) return;
+    if (::pipe(ready) != 0) {
+      return;
+    }
     process_ = ::fork();
     if (process_ == 0) {
       OutputFile out(folder / "result");
       out.write("half");
-      if (::write(ready[1], "x", 1) == 1) ::pause();
+      if (::write(ready[1], "x", 1) == 1) {
+        ::pause();
+      }
       ::_exit(1);
     }
     char byte = 0;

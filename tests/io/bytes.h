@@ -12,7 +12,9 @@ template <typename T>
 std::string little(T value) {
   std::string bytes(sizeof(T), '\0');
   std::memcpy(bytes.data(), &value, sizeof(T));
-  if (std::endian::native == std::endian::big) std::reverse(bytes.begin(), bytes.end());
+  if (std::endian::native == std::endian::big) {
+    std::reverse(bytes.begin(), bytes.end());
+  }
   return bytes;
 }
 

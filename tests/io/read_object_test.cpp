@@ -56,7 +56,9 @@ TEST(ReadObject, SaysWhyAFileCannotBeRead) {
     EXPECT_EQ(message_of(below), below + ": not a directory");
     const std::string endless = std::string(300, 'a') + ending;
     EXPECT_EQ(message_of(endless), endless + ": file name too long");
-    if (::geteuid() == 0) continue;  // root reads everything
+    if (::geteuid() == 0) {
+      continue;  // root reads everything
+    }
     const auto shut = dir.write("shut" + ending + "/a" + ending, "x");
     std::filesystem::permissions(shut.parent_path(), std::filesystem::perms::none);
     EXPECT_EQ(message_of(shut), shut.string() + ": permission denied");
@@ -83,7 +85,9 @@ TEST(ObjectExtensions, AreThoseOfObjectFiles) {
   EXPECT_FALSE(is_object_file("a.png"));
   EXPECT_FALSE(is_object_file("off"));
   EXPECT_FALSE(is_object_file(".off"));
-  for (const std::string& extension : object_extensions()) EXPECT_TRUE(is_object_file("a" + extension)) << extension;
+  for (const std::string& extension : object_extensions()) {
+    EXPECT_TRUE(is_object_file("a" + extension)) << extension;
+  }
 }
 
 }  // namespace

@@ -42,8 +42,11 @@ inline std::string problem_with(const std::string& name, std::string_view bytes,
 }
 
 inline bool all_finite(const std::vector<Vec3>& points) {
-  for (const Vec3& point : points)
-    if (!point.allFinite()) return false;
+  for (const Vec3& point : points) {
+    if (!point.allFinite()) {
+      return false;
+    }
+  }
   return true;
 }
 
@@ -57,8 +60,11 @@ inline void expect_sound(const Object& object) {
   const Mesh& mesh = std::get<Mesh>(object);
   EXPECT_FALSE(mesh.triangles.empty());
   EXPECT_TRUE(all_finite(mesh.vertices));
-  for (const Triangle& triangle : mesh.triangles)
-    for (const std::uint32_t corner : triangle) EXPECT_LT(corner, mesh.vertices.size());
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::uint32_t corner : triangle) {
+      EXPECT_LT(corner, mesh.vertices.size());
+    }
+  }
 }
 
 // Reads what must give a sound object or an InputError with one line of words.
@@ -77,7 +83,9 @@ inline void expect_sound_or_refused(const TempDir& dir, const std::string& name,
 inline void expect_survives_damage(const std::string& name, std::string_view good) {
   const TempDir dir;
   expect_sound(read_bytes(name, good));
-  for (std::size_t size = 0; size < good.size(); ++size) expect_sound_or_refused(dir, name, good.substr(0, size));
+  for (std::size_t size = 0; size < good.size(); ++size) {
+    expect_sound_or_refused(dir, name, good.substr(0, size));
+  }
   for (std::size_t at = 0; at < good.size(); ++at) {
     std::string bad(good);
     for (const char byte : {'\0', '\xff', '9', '-', '\n', ' ', static_cast<char>(good[at] ^ 1)}) {

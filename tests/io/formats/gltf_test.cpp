@@ -19,17 +19,20 @@ using test::little;
 using test::problem_with;
 using test::read_mesh;
 
-const std::vector<Vec3> square_vertices{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-const std::vector<Triangle> square_triangles{{0, 1, 2}, {0, 2, 3}};
+const std::vector<Vec3> kSquareVertices{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+const std::vector<Triangle> kSquareTriangles{{0, 1, 2}, {0, 2, 3}};
 
 std::string base64(const std::string& bytes) {
   static const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     std::uint32_t bits = 0;
-    for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t k = 0; k < 3; ++k) {
       bits = bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? digits[bits >> (18 - 6 * k) & 63] : '=';
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += i + k <= bytes.size() ? digits[bits >> (18 - 6 * k) & 63] : '=';
+    }
   }
   return text;
 }
@@ -37,10 +40,16 @@ std::string base64(const std::string& bytes) {
 // 4 vertices of 3 floats, then 6 indices of 2 bytes: 60 bytes.
 std::string square_buffer() {
   std::string bytes;
-  for (const Vec3& vertex : square_vertices)
-    for (const double c : vertex) bytes += little(static_cast<float>(c));
-  for (const Triangle& triangle : square_triangles)
-    for (const std::uint32_t corner : triangle) bytes += little(static_cast<std::uint16_t>(corner));
+  for (const Vec3& vertex : kSquareVertices) {
+    for (const double c : vertex) {
+      bytes += little(static_cast<float>(c));
+    }
+  }
+  for (const Triangle& triangle : kSquareTriangles) {
+    for (const std::uint32_t corner : triangle) {
+      bytes += little(static_cast<std::uint16_t>(corner));
+    }
+  }
   return bytes;
 }
 
@@ -55,7 +64,9 @@ json square_document(const std::string& uri) {
                   {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}],
     "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
     "buffers": [{"byteLength": 60}]})");
-  if (!uri.empty()) document["buffers"][0]["uri"] = uri;
+  if (!uri.empty()) {
+    document["buffers"][0]["uri"] = uri;
+  }
   return document;
 }
 
@@ -64,7 +75,9 @@ json square_document() {
 }
 
 std::string glb(std::string text, const std::string& binary) {
-  while (text.size() % 4 != 0) text += ' ';
+  while (text.size() % 4 != 0) {
+    text += ' ';
+  }
   const auto size = [](std::size_t bytes) { return little(static_cast<std::uint32_t>(bytes)); };
   return "glTF" + size(2) + size(12 + 8 + text.size() + 8 + binary.size()) + size(text.size()) + "JSON" + text +
          size(binary.size()) + std::string("BIN\0", 4) + binary;
@@ -79,13 +92,15 @@ std::string problem_of(const json& document) {
 }
 
 void expect_square(const Mesh& mesh) {
-  EXPECT_EQ(mesh.vertices, square_vertices);
-  EXPECT_EQ(mesh.triangles, square_triangles);
+  EXPECT_EQ(mesh.vertices, kSquareVertices);
+  EXPECT_EQ(mesh.triangles, kSquareTriangles);
 }
 
 void expect_near(const std::vector<Vec3>& found, const std::vector<Vec3>& expected) {
   ASSERT_EQ(found.size(), expected.size());
-  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_LT((found[i] - expected[i]).norm(), 1e-12) << i;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_LT((found[i] - expected[i]).norm(), 1e-12) << i;
+  }
 }
 
 TEST(Gltf, ReadsABufferInTheFile) {
@@ -102,8 +117,9 @@ TEST(Gltf, ReadsBinaryFiles) {
 TEST(Gltf, ReadsABufferBesideTheFile) {
   const test::TempDir dir;
   dir.write("parts/a buffer.bin", square_buffer() + "more");
-  for (const char* uri : {"parts/a%20buffer.bin", "./parts/a buffer.bin", "parts/../parts/a%20buffer.bin"})
+  for (const char* uri : {"parts/a%20buffer.bin", "./parts/a buffer.bin", "parts/../parts/a%20buffer.bin"}) {
     expect_square(std::get<Mesh>(read_object(dir.write("a.gltf", square_document(uri).dump()))));
+  }
 }
 
 TEST(Gltf, StaysInItsOwnFolder) {
@@ -215,7 +231,7 @@ TEST(Gltf, ReadsStripsFansAndUnindexedTriangles) {
 TEST(Gltf, ReadsPointsAsACloud) {
   json document = square_document();
   document["meshes"][0]["primitives"][0]["mode"] = 0;
-  EXPECT_EQ(test::read_cloud("a.gltf", document.dump()).points, square_vertices);
+  EXPECT_EQ(test::read_cloud("a.gltf", document.dump()).points, kSquareVertices);
   document["meshes"][0]["primitives"][0]["mode"] = 1;  // lines
   EXPECT_EQ(problem_of(document), "holds neither a face nor a point");
 }
@@ -223,9 +239,11 @@ TEST(Gltf, ReadsPointsAsACloud) {
 TEST(Gltf, ReadsIndicesOfEverySize) {
   for (const int type : {5121, 5123, 5125}) {
     std::string bytes = square_buffer().substr(0, 48);
-    for (const Triangle& triangle : square_triangles)
-      for (const std::uint32_t i : triangle)
+    for (const Triangle& triangle : kSquareTriangles) {
+      for (const std::uint32_t i : triangle) {
         bytes += type == 5121 ? little(std::uint8_t(i)) : type == 5123 ? little(std::uint16_t(i)) : little(i);
+      }
+    }
     json document = square_document("data:application/octet-stream;base64," + base64(bytes));
     document["buffers"][0]["byteLength"] = bytes.size();
     document["bufferViews"][1]["byteLength"] = bytes.size() - 48;
@@ -301,7 +319,9 @@ TEST(Gltf, WalksLongChainsOfNodes) {
   json document = square_document();
   constexpr int length = 30'000;
   document["nodes"] = json::array();
-  for (int i = 0; i + 1 < length; ++i) document["nodes"].push_back({{"children", {i + 1}}, {"translation", {1, 0, 0}}});
+  for (int i = 0; i + 1 < length; ++i) {
+    document["nodes"].push_back({{"children", {i + 1}}, {"translation", {1, 0, 0}}});
+  }
   document["nodes"].push_back({{"mesh", 0}});
   const Mesh mesh = std::get<Mesh>(test::read_bytes("a.gltf", document.dump(), {.max_growth = 100}));
   EXPECT_EQ(mesh.vertices[0], Vec3(length - 1, 0, 0));
@@ -342,7 +362,9 @@ TEST(Gltf, RefusesDamagedBinaryFiles) {
 TEST(Gltf, RefusesMillionsOfEmptyNodes) {
   for (const std::string node : {"{}", "{\"mesh\":0}"}) {
     std::string text = R"({"asset":{"version":"2.0"},"nodes":[{})";
-    for (int i = 0; i < 500'000; ++i) text += "," + node;
+    for (int i = 0; i < 500'000; ++i) {
+      text += "," + node;
+    }
     const std::string problem = problem_with("a.gltf", text + "]}");
     EXPECT_TRUE(problem.starts_with("would take ") && problem.ends_with("--max-growth raises this limit")) << problem;
   }
@@ -359,17 +381,22 @@ TEST(Gltf, KeepsToTheLimits) {
 TEST(Gltf, RepeatsAMeshOnlyAsFarAsItsSizeAllows) {
   json document = square_document();
   std::string vertices;
-  for (int i = 0; i < 36'000; ++i) vertices += little(static_cast<float>(i));
+  for (int i = 0; i < 36'000; ++i) {
+    vertices += little(static_cast<float>(i));
+  }
   const std::string bytes = vertices + square_buffer().substr(48);
   document["buffers"][0] = {{"byteLength", bytes.size()},
                             {"uri", "data:application/octet-stream;base64," + base64(bytes)}};
   document["bufferViews"] = {{{"buffer", 0}, {"byteLength", vertices.size()}},
                              {{"buffer", 0}, {"byteOffset", vertices.size()}, {"byteLength", 12}}};
   document["accessors"][0]["count"] = 12'000;
-  for (int i = 1; i < 20; ++i) document["nodes"].push_back({{"mesh", 0}}), document["scenes"][0]["nodes"].push_back(i);
-  EXPECT_EQ(problem_with("a.gltf", document.dump()), "(nothing thrown)");
-  for (int i = 20; i < 100; ++i)
+  for (int i = 1; i < 20; ++i) {
     document["nodes"].push_back({{"mesh", 0}}), document["scenes"][0]["nodes"].push_back(i);
+  }
+  EXPECT_EQ(problem_with("a.gltf", document.dump()), "(nothing thrown)");
+  for (int i = 20; i < 100; ++i) {
+    document["nodes"].push_back({{"mesh", 0}}), document["scenes"][0]["nodes"].push_back(i);
+  }
   const std::string problem = problem_with("a.gltf", document.dump());
   EXPECT_TRUE(problem.starts_with("would take ") && problem.ends_with("--max-growth raises this limit")) << problem;
   EXPECT_EQ(problem_with("a.gltf", document.dump(), {.max_growth = 1'000}), "(nothing thrown)");
@@ -406,8 +433,9 @@ TEST(Gltf, CountsAFileThatManyBuffersNameOnce) {
   const auto problem_with_buffers = [&](int count, const ReadLimits& limits = {}) {
     json document = square_document("a.bin");
     document["buffers"] = json::array();
-    for (int i = 0; i < count; ++i)
+    for (int i = 0; i < count; ++i) {
       document["buffers"].push_back({{"byteLength", size}, {"uri", std::string(1, "abc"[i % 3]) + ".bin"}});
+    }
     const std::filesystem::path file = dir.write("a.gltf", document.dump());
     return test::input_error([&] { read_object(file, limits); });
   };
@@ -432,7 +460,9 @@ TEST(Gltf, DoesNotCountWhatItDoesNotRead) {
   document["buffers"][0]["byteLength"] = 240'000;
   document["bufferViews"] = {{{"buffer", 0}, {"byteLength", 240'000}}, {{"buffer", 0}, {"byteLength", 12}}};
   document["accessors"][0]["count"] = 20'000;
-  for (int i = 1; i < 40; ++i) document["nodes"].push_back({{"mesh", 0}}), document["scenes"][0]["nodes"].push_back(i);
+  for (int i = 1; i < 40; ++i) {
+    document["nodes"].push_back({{"mesh", 0}}), document["scenes"][0]["nodes"].push_back(i);
+  }
   const std::string problem = test::input_error([&] { read_object(dir.write("a.gltf", document.dump())); });
   EXPECT_NE(problem.find("would take "), std::string::npos) << problem;
 }

@@ -12,27 +12,27 @@ using test::problem_with;
 using test::read_cloud;
 using test::read_mesh;
 
-const std::string square_body = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
-const std::vector<Vec3> square_vertices{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-const std::vector<Triangle> square_triangles{{0, 1, 2}, {0, 2, 3}};
+const std::string kSquareBody = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
+const std::vector<Vec3> kSquareVertices{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+const std::vector<Triangle> kSquareTriangles{{0, 1, 2}, {0, 2, 3}};
 
 void expect_square(const std::string& text) {
   const Mesh mesh = read_mesh("square.off", text);
-  EXPECT_EQ(mesh.vertices, square_vertices) << text;
-  EXPECT_EQ(mesh.triangles, square_triangles) << text;
+  EXPECT_EQ(mesh.vertices, kSquareVertices) << text;
+  EXPECT_EQ(mesh.triangles, kSquareTriangles) << text;
 }
 
 TEST(Off, ReadsAPolygonAsAFan) {
-  expect_square("OFF\n4 1 4\n" + square_body);
+  expect_square("OFF\n4 1 4\n" + kSquareBody);
 }
 
 TEST(Off, TakesEveryHeaderInUse) {
-  expect_square("OFF 4 1 4\n" + square_body);
-  expect_square("OFF4 1 4\n" + square_body);  // ModelNet
-  expect_square("4 1 4\n" + square_body);
-  expect_square("OFF\n4 1\n" + square_body);  // no number of edges
-  expect_square("off\n4 1 4\n" + square_body);
-  expect_square("\xEF\xBB\xBFOFF\n4 1 4\n" + square_body);
+  expect_square("OFF 4 1 4\n" + kSquareBody);
+  expect_square("OFF4 1 4\n" + kSquareBody);  // ModelNet
+  expect_square("4 1 4\n" + kSquareBody);
+  expect_square("OFF\n4 1\n" + kSquareBody);  // no number of edges
+  expect_square("off\n4 1 4\n" + kSquareBody);
+  expect_square("\xEF\xBB\xBFOFF\n4 1 4\n" + kSquareBody);
 }
 
 TEST(Off, TakesCommentsAndBlankLinesAnywhere) {
@@ -79,7 +79,9 @@ TEST(Off, KeepsRepeatedAndFlatFaces) {
 
 TEST(Off, CutsPolygonsOfAThousandSides) {
   std::string text = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n1000";
-  for (int i = 0; i < 1000; ++i) text += " " + std::to_string(i % 3);
+  for (int i = 0; i < 1000; ++i) {
+    text += " " + std::to_string(i % 3);
+  }
   EXPECT_EQ(read_mesh("a.off", text).triangles.size(), 998U);
 }
 
@@ -123,7 +125,7 @@ TEST(Off, ChecksIndicesAndCounts) {
 }
 
 TEST(Off, KeepsToTheLimits) {
-  const std::string text = "OFF\n4 1 4\n" + square_body;
+  const std::string text = "OFF\n4 1 4\n" + kSquareBody;
   EXPECT_EQ(problem_with("a.off", text, {.max_points = 3}), "holds more than 3 points; --max-points raises this limit");
   EXPECT_EQ(problem_with("a.off", text, {.max_triangles = 1}),
             "holds more than 1 triangles; --max-triangles raises this limit");

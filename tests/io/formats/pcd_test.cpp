@@ -16,8 +16,8 @@ using test::little;
 using test::problem_with;
 using test::read_cloud;
 
-const float nan_float = std::numeric_limits<float>::quiet_NaN();
-const std::vector<Vec3> two_points{{0, 0.5, 0}, {1, 2, 3}};
+const float kNanFloat = std::numeric_limits<float>::quiet_NaN();
+const std::vector<Vec3> kTwoPoints{{0, 0.5, 0}, {1, 2, 3}};
 
 std::string header(const std::string& fields, int points, const std::string& data) {
   return fmt::format(
@@ -26,11 +26,13 @@ std::string header(const std::string& fields, int points, const std::string& dat
       fields, points, points, data);
 }
 
-const std::string xyz = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n";
+const std::string kXyz = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n";
 
 std::string floats(const std::vector<float>& values) {
   std::string bytes;
-  for (const float value : values) bytes += little(value);
+  for (const float value : values) {
+    bytes += little(value);
+  }
   return bytes;
 }
 
@@ -49,26 +51,26 @@ std::string compressed(const std::string& packed, std::size_t size) {
 }
 
 TEST(Pcd, ReadsText) {
-  const PointCloud cloud = read_cloud("a.pcd", header(xyz, 2, "ascii") + "0 0.5 0\n1 2 3\n");
-  EXPECT_EQ(cloud.points, two_points);
+  const PointCloud cloud = read_cloud("a.pcd", header(kXyz, 2, "ascii") + "0 0.5 0\n1 2 3\n");
+  EXPECT_EQ(cloud.points, kTwoPoints);
   EXPECT_TRUE(cloud.normals.empty());
   EXPECT_FALSE(cloud.sensor);
 }
 
 TEST(Pcd, ReadsBytes) {
-  EXPECT_EQ(read_cloud("a.pcd", header(xyz, 2, "binary") + floats({0, 0.5F, 0, 1, 2, 3})).points, two_points);
+  EXPECT_EQ(read_cloud("a.pcd", header(kXyz, 2, "binary") + floats({0, 0.5F, 0, 1, 2, 3})).points, kTwoPoints);
 }
 
 TEST(Pcd, ReadsCompressedBytesFieldByField) {
   const std::string by_field = floats({0, 1, 0.5F, 2, 0, 3});
-  EXPECT_EQ(read_cloud("a.pcd", header(xyz, 2, "binary_compressed") + compressed(pack_plainly(by_field), 24)).points,
-            two_points);
+  EXPECT_EQ(read_cloud("a.pcd", header(kXyz, 2, "binary_compressed") + compressed(pack_plainly(by_field), 24)).points,
+            kTwoPoints);
 }
 
 TEST(Pcd, UnpacksCopiesThatOverlap) {
   // One zero byte, then 9 + 2 = 11 copies of it from one byte back: three floats of zero.
   const std::string packed("\x00\x00\xe0\x02\x00", 5);
-  const PointCloud cloud = read_cloud("a.pcd", header(xyz, 1, "binary_compressed") + compressed(packed, 12));
+  const PointCloud cloud = read_cloud("a.pcd", header(kXyz, 1, "binary_compressed") + compressed(packed, 12));
   EXPECT_EQ(cloud.points, (std::vector<Vec3>{{0, 0, 0}}));
 }
 
@@ -96,26 +98,26 @@ TEST(Pcd, ReadsEverySizeOfInteger) {
 }
 
 TEST(Pcd, LeavesOutWhatWasNotMeasured) {
-  EXPECT_EQ(read_cloud("a.pcd", header(xyz, 3, "ascii") + "0 0.5 0\nnan nan nan\n1 2 3\n").points, two_points);
-  const std::string bytes = floats({0, 0.5F, 0, nan_float, 0, 0, 1, 2, 3});
-  EXPECT_EQ(read_cloud("a.pcd", header(xyz, 3, "binary") + bytes).points, two_points);
-  EXPECT_EQ(problem_with("a.pcd", header(xyz, 1, "ascii") + "nan nan nan\n"),
+  EXPECT_EQ(read_cloud("a.pcd", header(kXyz, 3, "ascii") + "0 0.5 0\nnan nan nan\n1 2 3\n").points, kTwoPoints);
+  const std::string bytes = floats({0, 0.5F, 0, kNanFloat, 0, 0, 1, 2, 3});
+  EXPECT_EQ(read_cloud("a.pcd", header(kXyz, 3, "binary") + bytes).points, kTwoPoints);
+  EXPECT_EQ(problem_with("a.pcd", header(kXyz, 1, "ascii") + "nan nan nan\n"),
             "holds only points without finite coordinates");
 }
 
 TEST(Pcd, TakesTheSensorFromTheViewpoint) {
   const std::string end = "POINTS 1\nDATA ascii\n1 2 3\n";
-  EXPECT_EQ(read_cloud("a.pcd", xyz + "VIEWPOINT 1 -2 0.5 1 0 0 0\n" + end).sensor, Vec3(1, -2, 0.5));
-  EXPECT_EQ(read_cloud("a.pcd", xyz + "VIEWPOINT 0 0 0 0 1 0 0\n" + end).sensor, Vec3(0, 0, 0));
-  EXPECT_FALSE(read_cloud("a.pcd", xyz + "VIEWPOINT 0 0 0 1 0 0 0\n" + end).sensor);
-  EXPECT_FALSE(read_cloud("a.pcd", xyz + end).sensor);
+  EXPECT_EQ(read_cloud("a.pcd", kXyz + "VIEWPOINT 1 -2 0.5 1 0 0 0\n" + end).sensor, Vec3(1, -2, 0.5));
+  EXPECT_EQ(read_cloud("a.pcd", kXyz + "VIEWPOINT 0 0 0 0 1 0 0\n" + end).sensor, Vec3(0, 0, 0));
+  EXPECT_FALSE(read_cloud("a.pcd", kXyz + "VIEWPOINT 0 0 0 1 0 0 0\n" + end).sensor);
+  EXPECT_FALSE(read_cloud("a.pcd", kXyz + end).sensor);
 }
 
 TEST(Pcd, CountsPointsByWidthAndHeight) {
-  EXPECT_EQ(read_cloud("a.pcd", xyz + "WIDTH 1\nHEIGHT 2\nDATA ascii\n0 0.5 0\n1 2 3\n").points, two_points);
-  EXPECT_EQ(problem_with("a.pcd", xyz + "WIDTH 2\nHEIGHT 2\nPOINTS 5\nDATA ascii\n"),
+  EXPECT_EQ(read_cloud("a.pcd", kXyz + "WIDTH 1\nHEIGHT 2\nDATA ascii\n0 0.5 0\n1 2 3\n").points, kTwoPoints);
+  EXPECT_EQ(problem_with("a.pcd", kXyz + "WIDTH 2\nHEIGHT 2\nPOINTS 5\nDATA ascii\n"),
             "line 8: WIDTH 2 x HEIGHT 2 is not POINTS 5");
-  EXPECT_EQ(problem_with("a.pcd", xyz + "WIDTH 4294967296\nHEIGHT 4294967296\nDATA ascii\n"),
+  EXPECT_EQ(problem_with("a.pcd", kXyz + "WIDTH 4294967296\nHEIGHT 4294967296\nDATA ascii\n"),
             "line 7: WIDTH x HEIGHT is too large");
 }
 
@@ -133,34 +135,36 @@ TEST(Pcd, RefusesInWords) {
   EXPECT_EQ(problem_with("a.pcd", "FIELDS x y\nPOINTS 1\nDATA ascii\n1 2\n"), "its points have no field 'z'");
   EXPECT_EQ(problem_with("a.pcd", header("FIELDS x y z\nSIZE 2 2 2\nTYPE F F F\n", 1, "binary") + "123456"),
             "field 'x': no floating-point number has 2 bytes");
-  EXPECT_EQ(problem_with("a.pcd", header(xyz, 1, "zip")),
+  EXPECT_EQ(problem_with("a.pcd", header(kXyz, 1, "zip")),
             "line 11: unknown data format 'zip'; expected ascii, binary or binary_compressed");
-  EXPECT_EQ(problem_with("a.pcd", header(xyz, 0, "ascii")), "holds neither a face nor a point");
+  EXPECT_EQ(problem_with("a.pcd", header(kXyz, 0, "ascii")), "holds neither a face nor a point");
 }
 
 TEST(Pcd, NoticesMissingPoints) {
   const auto announced = [](int bytes) {
     return fmt::format("announces 2 points, more than fit into the {} bytes that follow", bytes);
   };
-  EXPECT_EQ(problem_with("a.pcd", header(xyz, 2, "ascii") + "0 0 0\n"), announced(6));
-  EXPECT_EQ(problem_with("a.pcd", header(xyz, 2, "binary") + floats({0, 0, 0})), announced(12));
-  EXPECT_EQ(problem_with("a.pcd", header(xyz, 2, "binary_compressed") + "1234"), announced(4));
-  EXPECT_EQ(problem_with("a.pcd", header(xyz, 2, "ascii") + "0.000 0.000 0.000\n"),
+  EXPECT_EQ(problem_with("a.pcd", header(kXyz, 2, "ascii") + "0 0 0\n"), announced(6));
+  EXPECT_EQ(problem_with("a.pcd", header(kXyz, 2, "binary") + floats({0, 0, 0})), announced(12));
+  EXPECT_EQ(problem_with("a.pcd", header(kXyz, 2, "binary_compressed") + "1234"), announced(4));
+  EXPECT_EQ(problem_with("a.pcd", header(kXyz, 2, "ascii") + "0.000 0.000 0.000\n"),
             "line 13: the file ends after 1 of 2 points");
-  EXPECT_EQ(problem_with("a.pcd", header(xyz, 2, "ascii") + "0.000 0.000\n0.000 0.000\n"),
+  EXPECT_EQ(problem_with("a.pcd", header(kXyz, 2, "ascii") + "0.000 0.000\n0.000 0.000\n"),
             "line 12: expected a number, but the line ends here");
 }
 
 TEST(Pcd, RefusesFarTooManyFields) {
   std::string fields = "FIELDS x y z";
-  for (int i = 3; i < 1'000; ++i) fields += " a";
+  for (int i = 3; i < 1'000; ++i) {
+    fields += " a";
+  }
   const std::string rest = "\nPOINTS 0\nDATA ascii\n";
   EXPECT_EQ(problem_with("a.pcd", fields + rest), "holds neither a face nor a point");
   EXPECT_EQ(problem_with("a.pcd", fields + " a" + rest), "line 1: more than 1000 fields");
 }
 
 TEST(Pcd, ChecksCompressedSizes) {
-  const std::string head = header(xyz, 1, "binary_compressed");
+  const std::string head = header(kXyz, 1, "binary_compressed");
   const std::string damaged = "its compressed points are damaged";
   EXPECT_EQ(problem_with("a.pcd", head + compressed("x", 11)),
             "its 1 points of 12 bytes do not make up the 11 bytes that are compressed");
@@ -169,23 +173,24 @@ TEST(Pcd, ChecksCompressedSizes) {
   EXPECT_EQ(problem_with("a.pcd", head + compressed(std::string("\xe0\x02\x00", 3), 12)), damaged);  // nothing behind
   EXPECT_EQ(problem_with("a.pcd", head + compressed(std::string("\x05zz", 3), 12)), damaged);
   EXPECT_EQ(problem_with("a.pcd", head + compressed(std::string("\x00z\xe0", 3), 12)), damaged);
-  EXPECT_EQ(problem_with("a.pcd", header(xyz, 1000, "binary_compressed") + compressed(std::string(100, 'x'), 12000)),
+  EXPECT_EQ(problem_with("a.pcd", header(kXyz, 1000, "binary_compressed") + compressed(std::string(100, 'x'), 12000)),
             damaged);
 }
 
 TEST(Pcd, KeepsToTheLimits) {
-  for (const std::string data : {"ascii", "binary", "binary_compressed"})
-    EXPECT_EQ(problem_with("a.pcd", header(xyz, 2, data), {.max_points = 1}),
+  for (const std::string data : {"ascii", "binary", "binary_compressed"}) {
+    EXPECT_EQ(problem_with("a.pcd", header(kXyz, 2, data), {.max_points = 1}),
               "holds more than 1 points; --max-points raises this limit");
+  }
 }
 
 TEST(Pcd, SurvivesDamage) {
   const std::string bytes = floats({0, 0.5F, 0, 1, 2, 3});
-  test::expect_survives_damage("a.pcd", header(xyz, 2, "ascii") + "0 0.5 0\n1 nan 3\n");
-  test::expect_survives_damage("a.pcd", header(xyz, 2, "binary") + bytes);
-  test::expect_survives_damage("a.pcd", header(xyz, 2, "binary_compressed") + compressed(pack_plainly(bytes), 24));
+  test::expect_survives_damage("a.pcd", header(kXyz, 2, "ascii") + "0 0.5 0\n1 nan 3\n");
+  test::expect_survives_damage("a.pcd", header(kXyz, 2, "binary") + bytes);
+  test::expect_survives_damage("a.pcd", header(kXyz, 2, "binary_compressed") + compressed(pack_plainly(bytes), 24));
   const std::string packed("\x00\x00\xe0\x02\x00", 5);
-  test::expect_survives_damage("a.pcd", header(xyz, 1, "binary_compressed") + compressed(packed, 12));
+  test::expect_survives_damage("a.pcd", header(kXyz, 1, "binary_compressed") + compressed(packed, 12));
 }
 
 }  // namespace

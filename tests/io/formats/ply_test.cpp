@@ -19,40 +19,45 @@ using test::problem_with;
 using test::read_cloud;
 using test::read_mesh;
 
-const std::vector<Vec3> square_vertices{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-const std::vector<Triangle> square_triangles{{0, 1, 2}, {0, 2, 3}};
+const std::vector<Vec3> kSquareVertices{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+const std::vector<Triangle> kSquareTriangles{{0, 1, 2}, {0, 2, 3}};
 
 void expect_square(const std::string& bytes) {
   const Mesh mesh = read_mesh("square.ply", bytes);
-  EXPECT_EQ(mesh.vertices, square_vertices);
-  EXPECT_EQ(mesh.triangles, square_triangles);
+  EXPECT_EQ(mesh.vertices, kSquareVertices);
+  EXPECT_EQ(mesh.triangles, kSquareTriangles);
 }
 
 std::string header(const std::string& format, const std::string& elements) {
   return "ply\nformat " + format + " 1.0\n" + elements + "end_header\n";
 }
 
-const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
-const std::string square_elements =
-    "element vertex 4\n" + xyz + "element face 1\nproperty list uchar int vertex_indices\n";
-const std::string square_text = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
+const std::string kXyz = "property float x\nproperty float y\nproperty float z\n";
+const std::string kSquareElements =
+    "element vertex 4\n" + kXyz + "element face 1\nproperty list uchar int vertex_indices\n";
+const std::string kSquareText = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
 
 template <typename Write>
 std::string square_bytes(Write write) {
   std::string bytes;
-  for (const Vec3& vertex : square_vertices)
-    for (const double c : vertex) bytes += write(static_cast<float>(c));
+  for (const Vec3& vertex : kSquareVertices) {
+    for (const double c : vertex) {
+      bytes += write(static_cast<float>(c));
+    }
+  }
   bytes += write(std::uint8_t{4});
-  for (std::int32_t i = 0; i < 4; ++i) bytes += write(i);
+  for (std::int32_t i = 0; i < 4; ++i) {
+    bytes += write(i);
+  }
   return bytes;
 }
 
-const auto write_little = [](auto value) { return little(value); };
-const auto write_big = [](auto value) { return big(value); };
+const auto kWriteLittle = [](auto value) { return little(value); };
+const auto kWriteBig = [](auto value) { return big(value); };
 
 TEST(Ply, ReadsText) {
-  expect_square(header("ascii", square_elements) + square_text);
-  expect_square(header("ascii", "comment hello # there\nobj_info element face 7\n" + square_elements) + square_text);
+  expect_square(header("ascii", kSquareElements) + kSquareText);
+  expect_square(header("ascii", "comment hello # there\nobj_info element face 7\n" + kSquareElements) + kSquareText);
   expect_square(
       "ply\r\nformat ascii 1.0\r\nelement vertex 4\r\nproperty float x\r\nproperty float y\r\n"
       "property float z\r\nelement face 1\r\nproperty list uchar int vertex_indices\r\nend_header\r\n"
@@ -60,18 +65,19 @@ TEST(Ply, ReadsText) {
 }
 
 TEST(Ply, ReadsBothByteOrders) {
-  expect_square(header("binary_little_endian", square_elements) + square_bytes(write_little));
-  expect_square(header("binary_big_endian", square_elements) + square_bytes(write_big));
-  expect_square(header("binary_little_endian", square_elements) + square_bytes(write_little) + "trailing");
+  expect_square(header("binary_little_endian", kSquareElements) + square_bytes(kWriteLittle));
+  expect_square(header("binary_big_endian", kSquareElements) + square_bytes(kWriteBig));
+  expect_square(header("binary_little_endian", kSquareElements) + square_bytes(kWriteLittle) + "trailing");
 }
 
 TEST(Ply, KnowsEveryNameOfEveryType) {
   for (const std::string type : {"char", "int8", "uchar", "uint8", "short", "int16", "ushort", "uint16", "int", "int32",
-                                 "uint", "uint32", "float", "float32", "double", "float64"})
+                                 "uint", "uint32", "float", "float32", "double", "float64"}) {
     expect_square(header("ascii", "element vertex 4\nproperty " + type + " x\nproperty " + type + " y\nproperty " +
                                       type + " z\nelement face 1\nproperty list " + type + " " + type +
                                       " vertex_index\n") +
-                  square_text);
+                  kSquareText);
+  }
 }
 
 TEST(Ply, ReadsBinaryNumbersOfEverySize) {
@@ -79,7 +85,9 @@ TEST(Ply, ReadsBinaryNumbersOfEverySize) {
       "element vertex 3\nproperty double x\nproperty short y\nproperty char z\n"
       "element face 1\nproperty list ushort uint8 vertex_index\n";
   std::string bytes;
-  for (int i = 0; i < 3; ++i) bytes += little(i + 0.5) + little(std::int16_t(-300 * i)) + little(std::int8_t(-i));
+  for (int i = 0; i < 3; ++i) {
+    bytes += little(i + 0.5) + little(std::int16_t(-300 * i)) + little(std::int8_t(-i));
+  }
   bytes += little(std::uint16_t{3}) + std::string("\0\1\2", 3);
   const Mesh mesh = read_mesh("a.ply", header("binary_little_endian", elements) + bytes);
   EXPECT_EQ(mesh.vertices, (std::vector<Vec3>{{0.5, 0, 0}, {1.5, -300, -1}, {2.5, -600, -2}}));
@@ -96,35 +104,40 @@ TEST(Ply, PassesOverWhatItDoesNotKnow) {
       "element edge 1\nproperty int vertex1\nproperty int vertex2\n";
   std::string text = "60.5 3 1 2 3\n";
   std::string bytes = little(60.5F) + little(std::int32_t{3}) + little(std::int16_t{1}) + little(std::int32_t{9});
-  for (const Vec3& v : square_vertices) {
+  for (const Vec3& v : kSquareVertices) {
     text += fmt::format("255 2 0.5 0.5 {} {} {} 7\n", v.x(), v.y(), v.z());
     bytes += '\xff' + std::string(1, '\2') + little(0.5) + little(0.5);
-    for (const double c : v) bytes += little(static_cast<float>(c));
+    for (const double c : v) {
+      bytes += little(static_cast<float>(c));
+    }
     bytes += little(std::int32_t{7});
   }
   text += "2 0.1 0.2 4 0 1 2 3 1\n0 1\n";
   bytes += '\1' + little(0.1F) + '\4';
-  for (std::int32_t i = 0; i < 4; ++i) bytes += little(i);
+  for (std::int32_t i = 0; i < 4; ++i) {
+    bytes += little(i);
+  }
   bytes += little(std::int32_t{1}) + little(std::int32_t{0}) + little(std::int32_t{1});
   expect_square(header("ascii", elements) + text);
   expect_square(header("binary_little_endian", elements) + bytes);
 }
 
 TEST(Ply, TakesFacesBeforeVertices) {
-  expect_square(header("ascii", "element face 1\nproperty list uchar int vertex_indices\nelement vertex 4\n" + xyz) +
+  expect_square(header("ascii", "element face 1\nproperty list uchar int vertex_indices\nelement vertex 4\n" + kXyz) +
                 "4 0 1 2 3\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n");
 }
 
 TEST(Ply, IsAPointCloudWithoutFaces) {
-  const std::string elements = "element vertex 3\n" + xyz + "property float nx\nproperty float ny\nproperty float nz\n";
+  const std::string elements =
+      "element vertex 3\n" + kXyz + "property float nx\nproperty float ny\nproperty float nz\n";
   const PointCloud cloud = read_cloud("a.ply", header("ascii", elements) + "0 0 0 1 0 0\nnan 0 0 0 1 0\n1 2 3 0 0 1\n");
   EXPECT_EQ(cloud.points, (std::vector<Vec3>{{0, 0, 0}, {1, 2, 3}}));
   EXPECT_EQ(cloud.normals, (std::vector<Vec3>{{1, 0, 0}, {0, 0, 1}}));
   EXPECT_FALSE(cloud.sensor);
 
   const PointCloud bare = read_cloud(
-      "a.ply", header("ascii", square_elements + "element face2 0\n") + "0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 1\n");
-  EXPECT_EQ(bare.points, square_vertices);
+      "a.ply", header("ascii", kSquareElements + "element face2 0\n") + "0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 1\n");
+  EXPECT_EQ(bare.points, kSquareVertices);
   EXPECT_TRUE(bare.normals.empty());
 }
 
@@ -144,14 +157,14 @@ TEST(Ply, RefusesInWords) {
   EXPECT_EQ(problem_with("a.ply", header("ascii", "")), "holds neither a face nor a point");
   EXPECT_EQ(problem_with("a.ply", header("ascii", "element vertex 1\nproperty float x\n") + "1\n"),
             "its vertices have no property 'y'");
-  EXPECT_EQ(problem_with("a.ply", header("ascii", "element vertex 1\n" + xyz) + "nan nan nan\n"),
+  EXPECT_EQ(problem_with("a.ply", header("ascii", "element vertex 1\n" + kXyz) + "nan nan nan\n"),
             "holds only points without finite coordinates");
   EXPECT_EQ(problem_with("a.ply", header("ascii", "element tristrips 1\nproperty list int int vertex_indices\n")),
             "holds triangle strips (tristrips); spincat reads PLY files with faces only");
 }
 
 TEST(Ply, ChecksTextNumbersAndIndices) {
-  const std::string head = header("ascii", square_elements);  // 9 lines
+  const std::string head = header("ascii", kSquareElements);  // 9 lines
   EXPECT_EQ(problem_with("a.ply", head + "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 4\n"),
             "line 14: vertex index 4 is out of range (4 vertices)");
   EXPECT_EQ(problem_with("a.ply", head + "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1.5 2\n"),
@@ -167,8 +180,8 @@ TEST(Ply, ChecksTextNumbersAndIndices) {
 }
 
 TEST(Ply, ChecksBinaryCountsAndIndices) {
-  const std::string head = header("binary_little_endian", square_elements);
-  std::string body = square_bytes(write_little);
+  const std::string head = header("binary_little_endian", kSquareElements);
+  std::string body = square_bytes(kWriteLittle);
   EXPECT_EQ(problem_with("a.ply", head + body.substr(0, 40)),
             "vertex 0: announces 4 x vertex, more than fit into the rest of the file");
   EXPECT_EQ(problem_with("a.ply", head + body.substr(0, 60)),
@@ -177,16 +190,17 @@ TEST(Ply, ChecksBinaryCountsAndIndices) {
   EXPECT_EQ(problem_with("a.ply", head + body), "face 0: vertex index 4 is out of range (4 vertices)");
   body.replace(12, 4, little(std::numeric_limits<float>::infinity()));
   EXPECT_EQ(problem_with("a.ply", head + body), "vertex 1: a coordinate is not finite");
-  EXPECT_EQ(problem_with("a.ply", header("binary_little_endian", "element vertex 18446744073709551\n" + xyz) + body),
+  EXPECT_EQ(problem_with("a.ply", header("binary_little_endian", "element vertex 18446744073709551\n" + kXyz) + body),
             "holds more than 100000000 points; --max-points raises this limit");
 }
 
 // Vertices without properties take no bytes: they were passed over, and faces checked against their number.
 TEST(Ply, RefusesFacesOfVerticesThatAreNotThere) {
   const std::string faces = "element face 1\nproperty list uchar int vertex_indices\n";
-  for (const std::string properties : {"", "property float y\nproperty float z\n", "property list uchar float x\n"})
+  for (const std::string properties : {"", "property float y\nproperty float z\n", "property list uchar float x\n"}) {
     EXPECT_EQ(problem_with("a.ply", header("ascii", "element vertex 3\n" + properties + faces) + "3 0 1 2\n"),
               "its vertices have no property 'x'");
+  }
   EXPECT_EQ(problem_with("a.ply", header("ascii", faces + "element vertex 3\n") + "3 0 1 2\n"),
             "its vertices have no property 'x'");
   EXPECT_EQ(problem_with("a.ply", header("ascii", "element vertex 0\n" + faces) + "3 0 1 2\n"),
@@ -195,8 +209,10 @@ TEST(Ply, RefusesFacesOfVerticesThatAreNotThere) {
 
 // Each name is compared with all before it: a header of a million elements must not take for ever.
 TEST(Ply, RefusesFarTooManyElements) {
-  std::string text = "ply\nformat ascii 1.0\nelement vertex 1\n" + xyz;
-  for (int i = 1; i < 100; ++i) text += "element e" + std::to_string(i) + " 0\n";
+  std::string text = "ply\nformat ascii 1.0\nelement vertex 1\n" + kXyz;
+  for (int i = 1; i < 100; ++i) {
+    text += "element e" + std::to_string(i) + " 0\n";
+  }
   EXPECT_EQ(problem_with("a.ply", text + "end_header\n0 0 0\n"), "(nothing thrown)");
   EXPECT_EQ(problem_with("a.ply", text + "element more 0\nend_header\n0 0 0\n"), "line 106: more than 100 elements");
 }
@@ -207,16 +223,16 @@ TEST(Ply, ShowsStrangeNamesInALine) {
 }
 
 TEST(Ply, KeepsToTheLimits) {
-  const std::string text = header("ascii", square_elements) + square_text;
+  const std::string text = header("ascii", kSquareElements) + kSquareText;
   EXPECT_EQ(problem_with("a.ply", text, {.max_points = 3}), "holds more than 3 points; --max-points raises this limit");
   EXPECT_EQ(problem_with("a.ply", text, {.max_triangles = 1}),
             "holds more than 1 triangles; --max-triangles raises this limit");
 }
 
 TEST(Ply, SurvivesDamage) {
-  test::expect_survives_damage("a.ply", header("ascii", "comment x\n" + square_elements) + square_text);
-  test::expect_survives_damage("a.ply", header("binary_little_endian", square_elements) + square_bytes(write_little));
-  test::expect_survives_damage("a.ply", header("binary_big_endian", square_elements) + square_bytes(write_big));
+  test::expect_survives_damage("a.ply", header("ascii", "comment x\n" + kSquareElements) + kSquareText);
+  test::expect_survives_damage("a.ply", header("binary_little_endian", kSquareElements) + square_bytes(kWriteLittle));
+  test::expect_survives_damage("a.ply", header("binary_big_endian", kSquareElements) + square_bytes(kWriteBig));
 }
 
 }  // namespace

@@ -17,47 +17,50 @@ using test::little;
 using test::problem_with;
 using test::read_mesh;
 
-const std::vector<Vec3> square_vertices{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-const std::vector<Triangle> square_triangles{{0, 1, 2}, {0, 2, 3}};
+const std::vector<Vec3> kSquareVertices{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+const std::vector<Triangle> kSquareTriangles{{0, 1, 2}, {0, 2, 3}};
 
 void expect_square(const std::string& bytes) {
   const Mesh mesh = read_mesh("square.stl", bytes);
-  EXPECT_EQ(mesh.vertices, square_vertices);
-  EXPECT_EQ(mesh.triangles, square_triangles);
+  EXPECT_EQ(mesh.vertices, kSquareVertices);
+  EXPECT_EQ(mesh.triangles, kSquareTriangles);
 }
 
-const std::string first_facet =
+const std::string kFirstFacet =
     "facet normal 0 0 1\n outer loop\n  vertex 0 0 0\n  vertex 1 0 0\n  vertex 1 1 0\n endloop\nendfacet\n";
-const std::string second_facet =
+const std::string kSecondFacet =
     "facet normal 0 0 1\n outer loop\n  vertex 0.0 -0 0\n  vertex 1 1 0\n  vertex 0 1e0 0\n endloop\nendfacet\n";
 
 std::string binary(std::string title) {
   title.resize(80, ' ');
   std::string bytes = title + little(std::uint32_t{2});
-  for (const Triangle& triangle : square_triangles) {
+  for (const Triangle& triangle : kSquareTriangles) {
     bytes += little(0.0F) + little(0.0F) + little(1.0F);
-    for (const std::uint32_t corner : triangle)
-      for (const double c : square_vertices[corner]) bytes += little(static_cast<float>(c));
+    for (const std::uint32_t corner : triangle) {
+      for (const double c : kSquareVertices[corner]) {
+        bytes += little(static_cast<float>(c));
+      }
+    }
     bytes += std::string(2, '\0');
   }
   return bytes;
 }
 
 TEST(Stl, ReadsTextAndMergesEqualVertices) {
-  expect_square("solid square\n" + first_facet + second_facet + "endsolid square\n");
+  expect_square("solid square\n" + kFirstFacet + kSecondFacet + "endsolid square\n");
 }
 
 TEST(Stl, ReadsSeveralSolids) {
-  expect_square("solid one\n" + first_facet + "endsolid one\n\nsolid\n" + second_facet + "endsolid\n");
+  expect_square("solid one\n" + kFirstFacet + "endsolid one\n\nsolid\n" + kSecondFacet + "endsolid\n");
 }
 
 TEST(Stl, TakesEveryLineEndAndUpperCase) {
   std::string text =
       "SOLID\r\nFACET NORMAL 0 0 1\r\nOUTER LOOP\r\nVERTEX 0 0 0\r\nVERTEX 1 0 0\r\nVERTEX 1 1 0\r\n"
       "ENDLOOP\r\nENDFACET\r\n" +
-      second_facet + "ENDSOLID";
+      kSecondFacet + "ENDSOLID";
   expect_square(text);
-  expect_square("  solid # a name, not a comment\n" + first_facet + second_facet + "endsolid\n");
+  expect_square("  solid # a name, not a comment\n" + kFirstFacet + kSecondFacet + "endsolid\n");
 }
 
 TEST(Stl, ReadsBytes) {
@@ -81,9 +84,10 @@ TEST(Stl, KeepsNearlyEqualVerticesApart) {
 TEST(Stl, MergesManyVertices) {
   std::string text = "solid\n";
   constexpr int steps = 3000;
-  for (int i = 0; i < steps; ++i)
+  for (int i = 0; i < steps; ++i) {
     text +=
         fmt::format("facet\nouter loop\nvertex {} 0 0\nvertex {} 0 0\nvertex {} 1 0\nendloop\nendfacet\n", i, i + 1, i);
+  }
   const Mesh mesh = read_mesh("a.stl", text + "endsolid\n");
   EXPECT_EQ(mesh.triangles.size(), std::size_t{steps});
   EXPECT_EQ(mesh.vertices.size(), std::size_t{2 * steps + 1});
@@ -95,8 +99,8 @@ TEST(Stl, RefusesInWords) {
   EXPECT_EQ(problem_with("a.stl", "OFF\n1 0 0"), "is cut off: the header alone needs 84 bytes, it has 9");
   EXPECT_EQ(problem_with("a.stl", "solid\nendsolid\n"), "holds neither a face nor a point");
   EXPECT_EQ(problem_with("a.stl", binary("x").substr(0, 150)), "is cut off: 2 triangles need 184 bytes, it has 150");
-  EXPECT_EQ(problem_with("a.stl", "solid\n" + first_facet), "line 9: the file ends before 'endsolid'");
-  EXPECT_EQ(problem_with("a.stl", "solid\n" + first_facet.substr(0, 60)), "line 5: the file ends within a facet");
+  EXPECT_EQ(problem_with("a.stl", "solid\n" + kFirstFacet), "line 9: the file ends before 'endsolid'");
+  EXPECT_EQ(problem_with("a.stl", "solid\n" + kFirstFacet.substr(0, 60)), "line 5: the file ends within a facet");
   EXPECT_EQ(problem_with("a.stl", "solid\nfacet\nouter loop\nvertex 0 x 0\n"),
             "line 4: expected a coordinate, found 'x'");
   EXPECT_EQ(problem_with("a.stl", "solid\nfacet\nouter loop\nvertex 0 inf 0\n"),
@@ -109,7 +113,7 @@ TEST(Stl, RefusesInWords) {
 }
 
 TEST(Stl, KeepsToTheLimits) {
-  for (const std::string& bytes : {binary("x"), "solid\n" + first_facet + second_facet + "endsolid\n"}) {
+  for (const std::string& bytes : {binary("x"), "solid\n" + kFirstFacet + kSecondFacet + "endsolid\n"}) {
     EXPECT_EQ(problem_with("a.stl", bytes, {.max_points = 3}),
               "holds more than 3 points; --max-points raises this limit");
     EXPECT_EQ(problem_with("a.stl", bytes, {.max_triangles = 1}),
@@ -118,7 +122,7 @@ TEST(Stl, KeepsToTheLimits) {
 }
 
 TEST(Stl, SurvivesDamage) {
-  test::expect_survives_damage("a.stl", "solid a\n" + first_facet + "endsolid\nsolid\n" + second_facet + "endsolid\n");
+  test::expect_survives_damage("a.stl", "solid a\n" + kFirstFacet + "endsolid\nsolid\n" + kSecondFacet + "endsolid\n");
   test::expect_survives_damage("a.stl", binary("solid"));
 }
 

@@ -11,11 +11,11 @@ namespace {
 using test::problem_with;
 using test::read_cloud;
 
-const std::vector<Vec3> two_points{{0, 0, 0}, {1, 2, 3}};
+const std::vector<Vec3> kTwoPoints{{0, 0, 0}, {1, 2, 3}};
 
 void expect_two_points(const std::string& text) {
   const PointCloud cloud = read_cloud("a.xyz", text);
-  EXPECT_EQ(cloud.points, two_points) << text;
+  EXPECT_EQ(cloud.points, kTwoPoints) << text;
   EXPECT_TRUE(cloud.normals.empty()) << text;
 }
 
@@ -27,8 +27,9 @@ TEST(Xyz, ReadsThreeColumns) {
 }
 
 TEST(Xyz, GoesByAnyOfItsNames) {
-  for (const char* name : {"a.xyz", "a.xyzn", "a.pts", "a.asc", "a.txt", "A.TXT"})
-    EXPECT_EQ(read_cloud(name, "0 0 0\n1 2 3\n").points, two_points) << name;
+  for (const char* name : {"a.xyz", "a.xyzn", "a.pts", "a.asc", "a.txt", "A.TXT"}) {
+    EXPECT_EQ(read_cloud(name, "0 0 0\n1 2 3\n").points, kTwoPoints) << name;
+  }
 }
 
 TEST(Xyz, TakesCommentsAndBlankLines) {
@@ -43,7 +44,7 @@ TEST(Xyz, SkipsALoneCount) {
 
 TEST(Xyz, TakesSixColumnsOfUnitLengthAsNormals) {
   const PointCloud cloud = read_cloud("a.xyzn", "0 0 0 1 0 0\n1 2 3 0 0.6 -0.805\n");
-  EXPECT_EQ(cloud.points, two_points);
+  EXPECT_EQ(cloud.points, kTwoPoints);
   EXPECT_EQ(cloud.normals, (std::vector<Vec3>{{1, 0, 0}, {0, 0.6, -0.805}}));
 }
 

@@ -3,47 +3,46 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <charconv>
+#include <algorithm>
 #include <string_view>
 
 #include "app/terminal/messages.h"
-#include "spincat/encode/encoding.h"
 #include "spincat/error.h"
 #include "spincat/files/file.h"
 #include "spincat/parallel/for_each.h"
-#include "spincat/settings/setting_names.h"
 
 namespace spincat::app {
 namespace {
 
-struct BinSize {
-  double value;
-  std::optional<BinSizeUnit> unit;
-};
-
-BinSize parse_bin_size(std::string_view text) {
-  BinSize size{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), size.value);
-  const std::string_view unit = text.substr(static_cast<std::size_t>(end - text.data()));
-  if (unit == "abs") {
-    size.unit = BinSizeUnit::absolute;
-  } else if (unit == "res") {
-    size.unit = BinSizeUnit::resolution;
-  } else if (unit == "rel") {
-    size.unit = BinSizeUnit::relative;
+// "(default 256; paper 100)": the first is what holds without --preset.
+std::string defaults_text(const Setting& setting, const std::optional<Settings>& own) {
+  if (own) {
+    return fmt::format("(default {})", setting_text(*own, setting));
   }
-  if (error != std::errc{} || (!unit.empty() && !size.unit)) {
-    throw InputError(
-        fmt::format("--bin-size {}: expected a number, maybe followed by abs, res or rel, as in 0.05rel", text));
+  std::string text;
+  for (const std::string& name : preset_names()) {
+    const std::string value = setting_text(preset(name), setting);
+    if (text.empty()) {
+      text = "default " + value;
+    } else if (value != setting_text(preset(preset_names()[0]), setting)) {
+      text += fmt::format("; {} {}", name, value);
+    }
   }
-  return size;
+  return fmt::format("({})", text);
 }
 
-template <class T>
-void override(T& setting, const std::optional<T>& wanted) {
-  if (wanted) {
-    setting = *wanted;
+const char* group_of(SettingStage stage) {
+  switch (stage) {
+    case SettingStage::points:
+      return "Settings: points";
+    case SettingStage::images:
+      return "Settings: spin images";
+    case SettingStage::features:
+      return "Settings: features";
+    case SettingStage::training:
+      break;
   }
+  return "Settings: training";
 }
 
 void add_limit(CLI::App& command, const char* name, std::size_t& limit, std::size_t most, const char* help) {
@@ -138,118 +137,50 @@ std::string limits_text(const ReadLimits& limits) {
   return fmt::format("{} {} {}", limits.max_points, limits.max_triangles, limits.max_growth);
 }
 
-void SettingsArguments::add_spin_options_to(CLI::App& command) {
-  const auto add = [&](const char* name, auto& variable, const std::string& help, const char* type) {
-    command.add_option(name, variable, help)->group("Settings")->type_name(type);
-  };
-  command.add_option("--seed", seed, "Of every random choice (default 1)")
-      ->group("Settings")
-      ->type_name("N")
-      ->check([](const std::string& text) {  // CLI11 would wrap -1 around
-        const bool whole = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-        return whole ? std::string() : "expected a whole number from 0, not " + text;
-      });
-  add("--surface", surface, "Points that stand for a mesh: vertices, samples or external", "KIND");
-  add("--points", points, "Surface points of an object", "N");
-  add("--spin-points", spin_points, "Spin points (and images) of an object, chosen at random", "N");
-  add("--image-width", image_width, "Rows and columns of a spin image, 1 to 256", "N");
-  add("--bin-size", bin_size,
-      "Size of a bin: a number followed by rel (object radii), res (mesh resolutions) or abs (the file's unit); "
-      "without one, the preset's unit",
-      "SIZE");
-  add("--support-angle", support_angle, "Largest angle between normals, 0 to 180 degrees", "DEGREES");
-}
-
-void SettingsArguments::add_to(CLI::App& command) {
-  const std::string group = "Settings";
+void SettingsArguments::add_to(CLI::App& command, SettingStage last) {
   command.add_option("--preset", preset, fmt::format("One of {}", fmt::join(preset_names(), ", ")))
-      ->group(group)
+      ->group("Settings")
       ->type_name("NAME")
       ->capture_default_str();
-  add_spin_options_to(command);
-  command.add_option("--encoding", encoding, fmt::format("One of {}", fmt::join(encoding_names(), ", ")))
-      ->group(group)
-      ->type_name("NAME");
-  command
-      .add_option("--for", trained_for,
-                  "What is to be named later: meshes, or any: point clouds, too (takes twice the time to learn)")
-      ->group(group)
-      ->type_name("KIND");
-  command
-      .add_option("--views", views,
-                  "Learn what a depth camera sees: so many rendered views of each training object, for spincat camera "
-                  "(30: better, takes longer); their axis that points up is y, or what --up says")
-      ->group(group)
-      ->type_name("N");
-  command.add_option("--up", up, "The axis that points up in all objects: x, y, z or none (default)")
-      ->group(group)
-      ->type_name("AXIS");
-  command.add_option("--draws", draws, "Draws of points that a feature vector is the mean of")
-      ->group(group)
-      ->type_name("N");
-  command.add_option("--words", words, "Words of the codebook that bag-of-features learns")
-      ->group(group)
-      ->type_name("N");
-  command.add_option("--kernel", kernel, "Of the judges' SVMs: linear or rbf (over the encoding's blocks)")
-      ->group(group)
-      ->type_name("NAME");
-  command.add_option("--c", c, "C of the judges' SVMs; without it, the one that suits the kernel")
-      ->group(group)
-      ->type_name("C");
-  command.add_option("--copies", copies, "Stretched copies of each training object")->group(group)->type_name("N");
+  add_options(command, last);
 }
 
-Settings SettingsArguments::settings() const {
-  return applied_to(spincat::preset(preset));
+void SettingsArguments::add_to(CLI::App& command, SettingStage last, const Settings& own) {
+  own_ = own;
+  preset.clear();
+  command
+      .add_option("--preset", preset,
+                  fmt::format("Settings of the classifier instead of this command's own: one of {}",
+                              fmt::join(preset_names(), ", ")))
+      ->group("Settings")
+      ->type_name("NAME");
+  add_options(command, last);
 }
 
-Settings SettingsArguments::applied_to(Settings s) const {
-  override(s.seed, seed);
-  override(s.prepare.points, points);
-  override(s.prepare.spin_points, spin_points);
-  override(s.spin.image_width, image_width);
-  override(s.encoding, encoding);
-  override(s.words, words);
-  override(s.draws, draws);
-  override(s.copies, copies);
-  if (trained_for && choice_of<TrainedFor>("--for", *trained_for) == TrainedFor::views && !views) {
-    throw InputError("--for views asks for --views N");
-  }
-  if (views) {
-    if (trained_for && *trained_for != "views") {
-      throw InputError("--views and --for " + *trained_for + " exclude each other");
+void SettingsArguments::add_options(CLI::App& command, SettingStage last) {
+  for (const Setting& setting : setting_table()) {
+    if (setting.stage > last) {
+      continue;
     }
-    s = trained_by_views(s, *views);
+    const std::string words = setting_words(setting);
+    const std::string help =
+        fmt::format("{}{}{} {}", setting.help, words.empty() ? "" : ": ", words, defaults_text(setting, own_));
+    const std::string option = fmt::format("--{}", setting.option);
+    const auto choose = [this, option, &setting](const std::string& text) {
+      chosen.push_back({std::string(setting.name), text, option});
+    };
+    command.add_option_function<std::string>(option, choose, help)
+        ->group(group_of(setting.stage))
+        ->type_name(std::string(setting.placeholder));
   }
-  if (encoding && make_encoding(*encoding)->gives_local_features()) {  // which cannot be joined
-    s.plain_samples = false;
-    s.draws = draws.value_or(1);
-  }
-  if (up) {
-    s.up = choice_of<UpAxis>("--up", *up);
-  }
-  if (trained_for) {
-    s.trained_for = choice_of<TrainedFor>("--for", *trained_for);
-  }
-  if (kernel) {
-    s.judge.kernel = choice_of<KernelKind>("--kernel", *kernel);
-    s.judge.c = default_c(s.judge.kernel);
-  }
-  override(s.judge.c, c);
-  if (surface) {
-    s.prepare.surface = choice_of<SurfaceKind>("--surface", *surface);
-  }
-  if (support_angle) {  // asking for an angle means the hard support angle
-    s.spin.support_angle = *support_angle;
-    s.spin.angle_test = AngleTest::cutoff;
-  }
-  if (bin_size) {
-    const BinSize size = parse_bin_size(*bin_size);
-    s.spin.bin_size = size.value;
-    override(s.bin_size_unit, size.unit);
-  }
-  s.validate();
-  return s;
+}
+
+bool SettingsArguments::asks_for(std::string_view setting) const {
+  return std::ranges::find(chosen, setting, &ChosenSetting::name) != chosen.end();
+}
+
+SettingChoices SettingsArguments::choices() const {
+  return {preset.empty() ? own_.value() : spincat::preset(preset), chosen};
 }
 
 void report_skipped(const std::vector<SkippedObject>& skipped, const RunOptions& run) {

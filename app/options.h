@@ -6,12 +6,14 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "spincat/dataset/dataset.h"
 #include "spincat/execution.h"
 #include "spincat/io/read_limits.h"
-#include "spincat/settings/settings.h"
+#include "spincat/settings/setting_choices.h"
+#include "spincat/settings/setting_table.h"
 
 namespace spincat::app {
 
@@ -49,32 +51,25 @@ void add_growth_option(CLI::App& command, ReadLimits& limits);
 // The limits as text, for the identity of a journal.
 std::string limits_text(const ReadLimits& limits);
 
-// A preset and what the user wants different from it.
+// A preset and what the user wants different from it: an option for every setting of the table.
 struct SettingsArguments {
   std::string preset = "default";
-  std::optional<std::uint64_t> seed;
-  std::optional<int> points;
-  std::optional<int> spin_points;
-  std::optional<int> image_width;
-  std::optional<std::string> bin_size;  // "0.1", "2res", "0.05rel", "3.5abs"
-  std::optional<double> support_angle;
-  std::optional<std::string> surface;
-  std::optional<std::string> encoding;
-  std::optional<std::string> up;
-  std::optional<std::string> trained_for;
-  std::optional<int> draws;
-  std::optional<int> words;
-  std::optional<std::string> kernel;
-  std::optional<double> c;
-  std::optional<int> copies;
-  std::optional<int> views;
+  std::vector<ChosenSetting> chosen;
 
-  void add_to(CLI::App& command);
-  // Only those that decide about the spin images: no preset, nothing of encodings and judges.
-  void add_spin_options_to(CLI::App& command);
-  // The preset with what the user wants different. Throws InputError naming what is out of range.
-  Settings settings() const;
-  Settings applied_to(Settings settings) const;
+  // --preset and the options of all settings up to this stage.
+  void add_to(CLI::App& command, SettingStage last = SettingStage::training);
+  // The same for a command whose settings are `own` unless a preset is asked for.
+  void add_to(CLI::App& command, SettingStage last, const Settings& own);
+
+  bool asks_for(std::string_view setting) const;
+  SettingChoices choices() const;
+  // Throws InputError that begins with the option.
+  Settings settings() const { return choices().settings(); }
+
+ private:
+  void add_options(CLI::App& command, SettingStage last);
+
+  std::optional<Settings> own_;
 };
 
 // --report FILE.html.

@@ -39,7 +39,7 @@ JudgeList six_categories(std::size_t feature_length) {
 // Milliseconds by stage for one object.
 std::map<std::string, double> time_object(const Object& object, const Settings& settings) {
   StageSeconds spent;
-  const FeatureVector features = describe(object, settings, 0, &spent);
+  const FeatureVector features = describe(object, settings, points_seed(settings), &spent);
   const JudgeList judges = six_categories(features.values.size());
   const double start = seconds(CLOCK_MONOTONIC);
   judges.vote(features.values);

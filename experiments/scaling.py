@@ -95,6 +95,12 @@ def dense(file, folder, more=(), bin_size="0.1rel", width=IMAGE_WIDTH):
             *more]
 
 
+def described(file, folder, points, more=()):
+    """The feature vector of images at so many points of the object's surface."""
+    return ["describe", str(file), "-o", str(folder / "out.npy"), "--points", str(points), "--spin-points", str(points),
+            "--plain-samples", "false", "--bin-size", "0.1rel", "--image-width", "16", *more]
+
+
 def training(objects, folder, more=()):
     return ["train", *objects, "-o", str(folder / "out.spincat"), "--all", *more]
 
@@ -261,8 +267,7 @@ def divisions(options, folder):
     rows = []
     workers = (options.most_workers, 1)
     for name, make in [(f"one object of {points} points, encoded",
-                        lambda divide: dense(file, folder, ["--encode", "pooled-pyramid", "--divide", divide],
-                                              width=16))] + (
+                        lambda divide: described(file, folder, points, ["--divide", divide]))] + (
             [("training", lambda divide: training(options.objects, folder, ["--copies", "1", "--divide", divide]))]
             if options.objects else []):
         times = {}

@@ -10,12 +10,12 @@
 
 #include "app/commands/classify_report.h"
 #include "app/commands/commands.h"
+#include "app/commands/input_files.h"
 #include "app/options.h"
 #include "app/ranks/farm_run.h"
 #include "app/terminal/answer_printer.h"
 #include "app/terminal/messages.h"
 #include "app/terminal/progress_bar.h"
-#include "spincat/dataset/object_files.h"
 #include "spincat/error.h"
 
 namespace spincat::app {
@@ -31,44 +31,6 @@ struct ClassifyArguments {
   ReadLimits limits;
   RunOptions run;
 };
-
-// A file to be named, or what is wrong with a folder that should have held some.
-struct Input {
-  fs::path file;
-  std::string problem;
-};
-
-// All object files below a folder, sorted, and an input with a problem for each folder that cannot be read, or where
-// there is no object.
-std::vector<Input> files_below(const fs::path& folder) {
-  std::vector<Input> files;
-  std::vector<UnreadFolder> unread;
-  for (const fs::path& file : object_files_below(folder, unread)) {
-    files.push_back({file, {}});
-  }
-  for (const auto& [where, error] : unread) {
-    files.push_back({where, "cannot be read: " + error.message()});
-  }
-  if (files.empty()) {
-    files.push_back({folder, "holds no object files"});
-  }
-  return files;
-}
-
-// Files as they are; folders stand for all object files below them.
-std::vector<Input> expand_folders(const std::vector<fs::path>& arguments) {
-  std::vector<Input> inputs;
-  for (const fs::path& argument : arguments) {
-    std::error_code error;
-    if (fs::is_directory(argument, error)) {
-      const std::vector<Input> below = files_below(argument);
-      inputs.insert(inputs.end(), below.begin(), below.end());
-    } else {
-      inputs.push_back({argument, {}});
-    }
-  }
-  return inputs;
-}
 
 // Objects of a kind that the judges were not trained for: told once, not for each.
 struct KindMismatches {
@@ -90,7 +52,7 @@ struct KindMismatches {
 };
 
 // A folder without objects has no file to be named, but an answer all the same.
-Answer problem_of(const Input& input) {
+Answer problem_of(const InputFile& input) {
   return {{}, input.file.string() + ": " + input.problem};
 }
 
@@ -101,10 +63,10 @@ struct Classified {
   std::size_t failed = 0;
 };
 
-Classified classify_all(const Model& model, const std::vector<Input>& inputs, const ClassifyArguments& arguments,
+Classified classify_all(const Model& model, const std::vector<InputFile>& inputs, const ClassifyArguments& arguments,
                         const FarmRun& run) {
   std::vector<std::string> names;
-  for (const Input& input : inputs) {
+  for (const InputFile& input : inputs) {
     names.push_back(input.file.string());
   }
   AnswerLook look = arguments.look;
@@ -130,7 +92,7 @@ Classified classify_all(const Model& model, const std::vector<Input>& inputs, co
     }
   };
   std::vector<fs::path> files;
-  for (const Input& input : inputs) {
+  for (const InputFile& input : inputs) {
     if (input.problem.empty()) {
       files.push_back(input.file);
     }
@@ -150,10 +112,10 @@ Classified classify_all(const Model& model, const std::vector<Input>& inputs, co
   return result;
 }
 
-RunIdentity identity_of(const Model& model, const std::vector<Input>& inputs, const ClassifyArguments& arguments) {
+RunIdentity identity_of(const Model& model, const std::vector<InputFile>& inputs, const ClassifyArguments& arguments) {
   FilesIdentity data;
   data.add(arguments.model);
-  for (const Input& input : inputs) {
+  for (const InputFile& input : inputs) {
     data.add(input.file);
   }
   return {settings_identity("classify", model.settings, limits_text(arguments.limits)), data.text()};
@@ -161,7 +123,7 @@ RunIdentity identity_of(const Model& model, const std::vector<Input>& inputs, co
 
 int run_classify(const ClassifyArguments& arguments, TaskFarm& farm) {
   const Model model = read_model(arguments.model);
-  const std::vector<Input> files = expand_folders(arguments.inputs);
+  const std::vector<InputFile> files = input_files(arguments.inputs);
   FarmRun run(farm, arguments.run);
   run.keep_journal({}, [&] { return identity_of(model, files, arguments); });
   check_report(arguments.report);

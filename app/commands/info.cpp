@@ -75,7 +75,7 @@ Command add_info(CLI::App& parent) {
   add_report_option(*command, arguments->report);
   command->add_flag("--json", arguments->json, "Print JSON for programs");
   command->add_flag("--quiet", arguments->quiet, "No notes on standard error, only errors");
-  arguments->settings.add_spin_options_to(*command);
+  arguments->settings.add_to(*command, SettingStage::images);
   add_limit_options(*command, arguments->limits);
   return [arguments](TaskFarm&) { return run_info(*arguments); };
 }

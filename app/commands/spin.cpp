@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -12,7 +11,6 @@
 #include "app/terminal/progress_bar.h"
 #include "spincat/describe/dense_object.h"
 #include "spincat/describe/describe.h"
-#include "spincat/encode/encoding.h"
 #include "spincat/error.h"
 #include "spincat/files/file.h"
 #include "spincat/files/output_file.h"
@@ -22,7 +20,6 @@
 #include "spincat/report/json.h"
 #include "spincat/report/picture.h"
 #include "spincat/report/text_table.h"
-#include "spincat/settings/setting_names.h"
 #include "spincat/spin/spin_images.h"
 
 namespace spincat::app {
@@ -35,8 +32,6 @@ struct SpinArguments {
   fs::path output;
   fs::path points_output;
   SettingsArguments settings;
-  std::string convention = "johnson";
-  std::string encoding;  // of a feature vector instead of the images; empty: images
   ReadLimits limits;
   RunOptions run;
   int sheet = 64;
@@ -44,13 +39,22 @@ struct SpinArguments {
 
 // What researchers expect unless they say otherwise: the object's own points, and bilinear images with bins of one mesh
 // resolution that see every angle.
-Settings spin_settings(const SpinArguments& arguments) {
+Settings own_settings() {
   Settings s = preset("paper");
-  s.spin.convention = choice_of<SpinConvention>("--convention", arguments.convention);
-  s.spin.support_angle = s.spin.convention == SpinConvention::pcl ? 90.0 : 180.0;
+  s.spin.support_angle = 180.0;
   s.spin.bin_size = 1.0;
   s.bin_size_unit = BinSizeUnit::resolution;
-  return arguments.settings.applied_to(s);
+  return s;
+}
+
+// PCL's images know no normals that point away.
+Settings spin_settings(const SpinArguments& arguments) {
+  SettingChoices choices = arguments.settings.choices();
+  const auto is_pcl = [](const ChosenSetting& one) { return one.name == "convention" && one.text == "pcl"; };
+  if (std::ranges::any_of(choices.chosen, is_pcl)) {
+    choices.base.spin.support_angle = 90.0;
+  }
+  return choices.settings();
 }
 
 // Some points of many, evenly chosen, in their order.
@@ -104,16 +108,6 @@ void write_images(const SpinArguments& arguments, TaskFarm& farm, const DenseObj
   out.commit();
 }
 
-// One feature vector of all images.
-void write_features(const SpinArguments& arguments, TaskFarm& farm, const DenseObject& object, ProgressBar& bar) {
-  const auto tick = [&](std::size_t done) { bar.update("making spin images", done, object.spin_points.size()); };
-  const FeatureVector features = encode_object(farm, object, arguments.encoding, arguments.run.split(), tick);
-  OutputFile out(arguments.output);
-  out.write(npy_header(std::array<std::size_t, 1>{features.values.size()}));
-  out.write(as_bytes(features.values));
-  out.commit();
-}
-
 void write_sheet(const SpinArguments& arguments, const DenseObject& object, int threads, ProgressBar& bar) {
   const OrientedPoints chosen = evenly_chosen(object.spin_points, static_cast<std::size_t>(arguments.sheet));
   SpinImages images(chosen.size(), object.params.shape());
@@ -157,35 +151,27 @@ void check_outputs(const SpinArguments& arguments) {
 }
 
 // Before the work, not after it.
-void check_arguments(const SpinArguments& arguments, const Settings& settings) {
-  const bool png = lower_extension(arguments.output) == ".png";
-  if (!png && lower_extension(arguments.output) != ".npy") {
+void check_arguments(const SpinArguments& arguments) {
+  if (lower_extension(arguments.output) != ".png" && lower_extension(arguments.output) != ".npy") {
     throw InputError(arguments.output.string(), "expected a name that ends in .npy or .png");
   }
   check_outputs(arguments);
-  if (arguments.encoding.empty()) {
-    return;
-  }
-  if (png) {
-    throw InputError(arguments.output.string(), "a feature vector (--encode) needs a name that ends in .npy");
-  }
-  make_encoding(arguments.encoding)->check(settings.spin);
 }
 
 RunIdentity identity_of(const SpinArguments& arguments, const Settings& settings) {
   FilesIdentity data;
   data.add(arguments.file);
-  const std::string more = fmt::format("{} {} {}", arguments.encoding, arguments.settings.spin_points.has_value(),
-                                       limits_text(arguments.limits));
+  const std::string more =
+      fmt::format("{} {}", arguments.settings.asks_for("spin_points"), limits_text(arguments.limits));
   return {settings_identity("spin", settings, more), data.text()};
 }
 
 int run_spin(const SpinArguments& arguments, TaskFarm& farm) {
   const Settings settings = spin_settings(arguments);
-  check_arguments(arguments, settings);
+  check_arguments(arguments);
   FarmRun run(farm, arguments.run);
   const auto [object, params] = prepared_object(arguments, settings);
-  const bool chosen = arguments.settings.spin_points.has_value();
+  const bool chosen = arguments.settings.asks_for("spin_points");
   const OrientedPoints& spin_points = chosen ? object.spin_points : object.surface;
   const DenseObject dense{object.surface, spin_points, params};
   {
@@ -194,8 +180,7 @@ int run_spin(const SpinArguments& arguments, TaskFarm& farm) {
       write_sheet(arguments, dense, farm.threads(), bar);
     } else {
       run.keep_journal(arguments.output, [&] { return identity_of(arguments, settings); });
-      arguments.encoding.empty() ? write_images(arguments, farm, dense, bar)
-                                 : write_features(arguments, farm, dense, bar);
+      write_images(arguments, farm, dense, bar);
     }
   }
   if (!arguments.points_output.empty()) {
@@ -208,9 +193,9 @@ int run_spin(const SpinArguments& arguments, TaskFarm& farm) {
   if (arguments.run.json) {
     fmt::print("{}\n", spin_json(arguments.output.string(), spin_points.size(), params, object));
   } else {
-    fmt::print("wrote {}: {}{} spin points, images of {} x {} from {} surface points\n",
-               printable(arguments.output.string()), arguments.encoding.empty() ? "" : "one feature vector of ",
-               spin_points.size(), params.shape().rows, params.shape().columns, object.surface.size());
+    fmt::print("wrote {}: {} spin points, images of {} x {} from {} surface points\n",
+               printable(arguments.output.string()), spin_points.size(), params.shape().rows, params.shape().columns,
+               object.surface.size());
   }
   return 0;
 }
@@ -239,14 +224,7 @@ Command add_spin(CLI::App& parent) {
       ->check(CLI::Range(1, 1'000))
       ->type_name("N")
       ->capture_default_str();
-  command->add_option("--convention", arguments->convention, "johnson or pcl")
-      ->type_name("NAME")
-      ->capture_default_str();
-  command
-      ->add_option("--encode", arguments->encoding,
-                   fmt::format("Write one feature vector of all images instead: {}", fmt::join(encoding_names(), ", ")))
-      ->type_name("NAME");
-  arguments->settings.add_spin_options_to(*command);
+  arguments->settings.add_to(*command, SettingStage::images, own_settings());
   add_limit_options(*command, arguments->limits);
   arguments->run.add_to(*command);
   arguments->run.add_farm_options_to(*command);

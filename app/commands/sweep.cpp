@@ -59,7 +59,7 @@ void check_output(const std::filesystem::path& output) {
 }
 
 int run_sweep(const SweepArguments& arguments, TaskFarm& farm) {
-  const Settings settings = arguments.settings.settings();
+  const SettingChoices settings = arguments.settings.choices();
   EvaluateOptions options = arguments.options;
   options.test = arguments.tested.options();
   FarmRun run(farm, arguments.run);  // a sweep keeps a journal of its own
@@ -83,12 +83,12 @@ int run_sweep(const SweepArguments& arguments, TaskFarm& farm) {
     execution.limits = arguments.dataset.options.limits;
     found = sweep(dataset, settings, variations, options, execution, journal);
   }
-  const std::string json = sweep_json(found, settings, options, command_line()) + "\n";
+  const std::string json = sweep_json(found, found.settings, options, command_line()) + "\n";
   if (!arguments.output.empty()) {
     write_file_atomically(arguments.output, arguments.output.extension() == ".csv" ? sweep_csv(found) : json);
   }
   if (!arguments.report.empty()) {
-    write_file_atomically(arguments.report, sweep_page(found, settings, options, command_line()));
+    write_file_atomically(arguments.report, sweep_page(found, found.settings, options, command_line()));
   }
   run.finish();
   fmt::print("{}", arguments.run.json ? json : sweep_text(found, terminal_width(STDOUT_FILENO, kPipeWidth)));
@@ -104,7 +104,8 @@ Command add_sweep(CLI::App& parent) {
       "Example:\n"
       "  spincat sweep furniture/ --vary bin_size=0.02,0.05,0.1 -o bins.csv\n"
       "  spincat sweep furniture/ --vary spin_points=64,128 --vary c=3,30,300\n"
-      "Settings have the names that they have in --json. An interrupted sweep with -o goes on where it stopped when it "
+      "Settings have the names of their options (spincat settings lists them). An interrupted sweep with -o goes on "
+      "where it stopped when it "
       "is\nasked for again: FILE.journal knows what is done.");
   arguments->dataset.add_to(*command);
   command->add_option("--vary", arguments->vary, "A setting and the values it is to take; once or twice")

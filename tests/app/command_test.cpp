@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -272,9 +273,9 @@ TEST_F(Command, WrongUseAndBadInputAreOneLineAndExitTwo) {
       {"train empty -o x.spincat", "empty: "},
       {"train one -o x.spincat", "only one category"},
       {"train shapes -o x.spincat --preset best", "preset 'best'"},
-      {"train shapes -o x.spincat --image-width 0", "image width 0"},
+      {"train shapes -o x.spincat --image-width 0", "--image-width 0: expected 1 to 256"},
       {"train shapes -o x.spincat --bin-size 1inch", "--bin-size 1inch"},
-      {"train shapes -o x.spincat --bin-size -1", "bin size -1"},
+      {"train shapes -o x.spincat --bin-size -1", "--bin-size -1: expected a number above 0"},
       {"train shapes -o x.spincat --encoding hash", "encoding 'hash'"},
       {"evaluate shapes --splits 0", "--splits"},
       {"evaluate shapes --test-share 1", "--test-share: expected more than 0 and less than 1"},
@@ -547,12 +548,13 @@ TEST_F(Command, ViewsAreTaughtAndMeasuredAndClassifySaysWhatAMeshIsToThem) {
   EXPECT_EQ(measured.at("views")[1].at("views"), 2);
   EXPECT_EQ(measured.at("views")[2].at("mean_class_rate"), measured.at("mean_class_rate"));
   EXPECT_EQ(run("train shapes -o x.spincat --views 3 --for any").code, 2);
-  EXPECT_EQ(run("train shapes -o x.spincat --for views").code, 2);
+  EXPECT_EQ(run("train shapes -o x.spincat --for views --points 64 --spin-points 16").code, 0);
   EXPECT_EQ(run("train shapes -o x.spincat --views 3 --up none").code, 2);
 }
 
 TEST_F(Command, EverySubcommandHasHelpWithAnExample) {
-  for (const std::string command : {"", "train", "classify", "evaluate", "spin", "info"}) {
+  for (const std::string command :
+       {"", "train", "classify", "evaluate", "sweep", "spin", "describe", "settings", "info"}) {
     const Result result = run(command + " --help");
     EXPECT_EQ(result.code, 0);
     EXPECT_NE(result.out.find("Example:"), std::string::npos) << command;
@@ -594,6 +596,100 @@ TEST_F(Command, InfoReportShowsObjectsOnly) {
   EXPECT_EQ(refused.err, "spincat: shapes.spincat: is a model, and --report shows an object\n");
   EXPECT_EQ(run("info new-cone.off --report cone.txt").code, 2);
   EXPECT_FALSE(fs::exists(dir_.path() / "model.html"));
+}
+
+// What train stores, evaluate measures, and sweep varies: one setting is one thing in all of them.
+Json settings_of(const std::string& info) {
+  return Json::parse(info)["settings"];
+}
+
+TEST_F(Command, WhatTheUserChoosesHoldsBesideViews) {
+  make_shapes();
+  const Result trained = run("train shapes -o v.spincat --views 2 --points 500 --image-width 16 --spin-points 32");
+  ASSERT_EQ(trained.code, 0) << trained.err;
+  const Json settings = settings_of(run("info v.spincat --json").out);
+  EXPECT_EQ(settings["points"], 500);
+  EXPECT_EQ(settings["image_width"], 16);
+  EXPECT_EQ(settings["trained_for"], "views");
+  const std::string text = run("info v.spincat").out;
+  for (const char* fact : {"views 2", "up y", "kernel linear", "c 200"}) {
+    EXPECT_NE(text.find(fact), std::string::npos) << fact << "\n" << text;
+  }
+}
+
+TEST_F(Command, SweepMeasuresWhatTrainAndEvaluateDo) {
+  make_shapes();
+  const std::string small = " --copies 1 --points 256 --spin-points 32 --splits 2 --quiet --json";
+  const std::string views = " --points 256 --spin-points 32 --splits 2 --quiet --json";
+  const auto rate = [](const Json& json) { return json["mean_class_rate"].get<double>(); };
+  for (const auto& [vary, options, more] : std::vector<std::array<std::string, 3>>{
+           {"kernel=linear,rbf", "--kernel rbf", small},
+           {"encoding=mean-image,bag-of-features", "--encoding bag-of-features", small},
+           {"views=1,3", "--views 3", views}}) {
+    const Result swept = run("sweep shapes --vary " + vary + more);
+    ASSERT_EQ(swept.code, 0) << swept.err;
+    const Json sweep = Json::parse(swept.out);
+    ASSERT_EQ(sweep["points"].size(), 2U);
+    EXPECT_FALSE(sweep["settings"].contains(vary.substr(0, vary.find('=')))) << vary;
+    const Result evaluated = run("evaluate shapes " + options + more);
+    ASSERT_EQ(evaluated.code, 0) << evaluated.err;
+    EXPECT_EQ(rate(sweep["points"][1]), rate(Json::parse(evaluated.out))) << vary;
+  }
+  EXPECT_EQ(settings_of(run("evaluate shapes --kernel rbf" + small).out)["c"], 3.0);
+  ASSERT_EQ(run("train shapes -o k.spincat --kernel rbf --copies 1 --points 256 --spin-points 32").code, 0);
+  EXPECT_EQ(settings_of(run("info k.spincat --json").out)["c"], 3.0);
+}
+
+TEST_F(Command, EverySettingIsAnOption) {
+  const Json list = Json::parse(run("settings --json").out)["settings"];
+  EXPECT_EQ(list.size(), 25U);
+  const std::string help = run("train --help").out;
+  for (const Json& setting : list) {
+    EXPECT_NE(help.find(setting["option"].get<std::string>() + " "), std::string::npos) << setting;
+  }
+  EXPECT_NE(help.find("(default 256; paper 100)"), std::string::npos) << help;
+  EXPECT_NE(run("settings").out.find("spin_points    1 to 10,000,000"), std::string::npos);
+}
+
+// The header and the numbers of a .npy file of two dimensions.
+std::pair<std::string, std::string> npy_parts(const std::string& bytes) {
+  const std::size_t end = bytes.find('\n') + 1;
+  return {bytes.substr(0, end), bytes.substr(end)};
+}
+
+TEST_F(Command, DescribeWritesTheFeaturesOfManyObjects) {
+  make_shapes();
+  dir_.write("damaged.off", "OFF\n3 1 0\n");
+  const std::string small = " --points 256 --spin-points 32";
+  const Result all = run("describe shapes damaged.off new-cone.off -o all.npy --threads 2" + small);
+  EXPECT_EQ(all.code, 2) << all.err;
+  EXPECT_EQ(lines(all.err).size(), 1U) << all.err;
+  const auto [header, numbers] = npy_parts(contents(dir_.path() / "all.npy"));
+  EXPECT_NE(header.find("(13, 9600, )"), std::string::npos) << header;
+  EXPECT_EQ(numbers.size(), 13U * 9600U * 4U);
+  const std::vector<std::string> names = lines(contents(dir_.path() / "all.csv"));
+  ASSERT_EQ(names.size(), 14U);
+  EXPECT_EQ(names[0], "row,path,kind");
+  EXPECT_EQ(names[13], "12,new-cone.off,mesh");
+  ASSERT_EQ(run("describe new-cone.off -o one.npy" + small).code, 0);
+  EXPECT_TRUE(npy_parts(contents(dir_.path() / "one.npy")).second == numbers.substr(12U * 9600U * 4U));
+}
+
+TEST_F(Command, DescribeRefusesInOneLine) {
+  make_shapes();
+  for (const auto& [arguments, problem] : std::vector<std::pair<std::string, std::string>>{
+           {"describe shapes -o f.txt", "f.txt: expected a name that ends in .npy"},
+           {"describe shapes -o nowhere/f.npy", "nowhere"},
+           {"describe shapes -o f.npy --encoding pooled-pyramid --image-width 20", "divisible by 8"},
+           {"describe shapes -o f.npy --spin-points many", "--spin-points many: expected a whole number"}}) {
+    const Result result = run(arguments);
+    EXPECT_EQ(result.code, 2) << arguments << result.err;
+    EXPECT_EQ(lines(result.err).size(), 1U) << result.err;
+    EXPECT_NE(result.err.find(problem), std::string::npos) << result.err;
+  }
+  EXPECT_EQ(run("describe absent.off -o f.npy").code, 2);
+  EXPECT_FALSE(fs::exists(dir_.path() / "f.npy"));
+  EXPECT_FALSE(fs::exists(dir_.path() / "f.csv"));
 }
 
 }  // namespace

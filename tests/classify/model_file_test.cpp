@@ -339,8 +339,7 @@ TEST(ModelFile, AHostileCalibrationIsRefused) {
 }
 
 TEST(ModelFile, HostileSettingsAreRefused) {
-  EXPECT_EQ(problem_after([](Json& json) { json["settings"]["points"] = -1; }),
-            "number of surface points -1 is out of range (1 to 10000000)");
+  EXPECT_EQ(problem_after([](Json& json) { json["settings"]["points"] = -1; }), "points -1: expected 1 to 10,000,000");
 }
 
 TEST(IsModelFile, LooksAtTheFirstBytes) {

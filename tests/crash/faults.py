@@ -29,7 +29,7 @@ LASTING = {
     "train": f"train shapes -o x.spincat {LONG}",
     "evaluate": f"evaluate shapes --report e.html {LONG}",
     "sweep": f"sweep shapes --vary c=1,10 -o w.csv {LONG}",
-    "spin": "spin ball.off -o s.npy --surface samples --points 400000 --image-width 64 --encode mean-image --threads 2",
+    "describe": "describe ball.off -o s.npy --surface samples --points 400000 --spin-points 400000 --image-width 64 --threads 2",
     "classify": "classify small.spincat many --threads 2",
     "camera": "camera small.spincat frames --loop --quiet --masks masks",
 }

@@ -11,6 +11,7 @@
 
 #include "spincat/error.h"
 #include "spincat/evaluate/tested_objects.h"
+#include "support/copies.h"
 #include "support/shapes.h"
 #include "support/temp_dir.h"
 #include "support/tiny_dataset.h"
@@ -124,7 +125,7 @@ TEST_F(ListedObjects, MustBeRegularFilesToBeTested) {
     objects.push_back({file, 0, ""});
   }
   const Settings settings = test::tiny_settings();
-  const std::size_t length = describe(test::box(), settings, 0).values.size();
+  const std::size_t length = test::describe_copy(test::box(), settings, 0).values.size();
   EXPECT_EQ(describe_tested(objects, length, settings, {}, {.threads = 2}).problems, problems_);
 }
 

@@ -15,6 +15,7 @@
 #include "spincat/evaluate/evaluate.h"
 #include "spincat/spin/spin_images.h"
 #include "spincat/train/train.h"
+#include "support/copies.h"
 #include "support/expect_error.h"
 #include "support/hostile.h"
 #include "support/scenes.h"
@@ -118,7 +119,7 @@ TEST_P(Hostile, GeometryGivesFiniteFeaturesAndAValidBallotOrIsRefused) {
     std::string problem;  // a camera may look past a thin object: that is a word, too
     try {
       for (const int row : {0, settings.training_rows() - 1}) {
-        EXPECT_TRUE(all_finite(describe(it.object, settings, row).values)) << "row " << row;
+        EXPECT_TRUE(all_finite(test::describe_copy(it.object, settings, row).values)) << "row " << row;
       }
       expect_valid(classify(model, it.object), model.categories.size(), what);
     } catch (const InputError& error) {

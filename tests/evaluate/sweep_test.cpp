@@ -9,7 +9,6 @@
 #include <sstream>
 
 #include "spincat/files/file.h"
-#include "spincat/settings/named_settings.h"
 #include "support/expect_error.h"
 #include "support/tiny_dataset.h"
 
@@ -206,28 +205,8 @@ TEST_F(Sweeps, ImpossibleSweepsAreRefusedBeforeAnyWork) {
   EXPECT_EQ(refusal({}), "a sweep takes 1 to 10000 points, not 1");
   EXPECT_EQ(refusal({{"c", {"1"}}, {"judge.c", {"2"}}}), "setting 'judge.c' is varied twice");
   EXPECT_EQ(refusal({{"c", {"1", "1"}}}), "setting 'c' is to take one value twice");
-  EXPECT_EQ(refusal({{"copies", {"1", "-1"}}}), "number of copies -1 is out of range (0 to 100)");
+  EXPECT_EQ(refusal({{"copies", {"1", "-1"}}}), "copies -1: expected 0 to 100");
   EXPECT_EQ(refusal({{"colour", {"1"}}}).rfind("setting 'colour' is not known (one of surface, ", 0), 0U);
-}
-
-TEST(WithSetting, TakesNamesAsPeopleWriteThem) {
-  for (const char* name : {"bin_size", "bin-size", "spin.bin_size", "a.b.bin-size"}) {
-    EXPECT_EQ(with_setting(preset("default"), name, "0.125").spin.bin_size, 0.125) << name;
-  }
-  EXPECT_EQ(with_setting(preset("default"), "surface", "samples").prepare.surface, SurfaceKind::samples);
-  EXPECT_EQ(with_setting(preset("default"), "class_weights", "false").judge.class_weights, false);
-  const Settings angle = with_setting(preset("default"), "support_angle", "60");
-  EXPECT_EQ(angle.spin.angle_test, AngleTest::cutoff);
-  EXPECT_EQ(angle.spin.support_angle, 60.0);
-}
-
-TEST(WithSetting, RefusesValuesOfAnotherType) {
-  EXPECT_EQ(input_error([] { with_setting({}, "copies", "1.5"); }),
-            "setting copies: expected a whole number, not '1.5'");
-  EXPECT_EQ(input_error([] { with_setting({}, "c", "many"); }), "setting c: expected a number, not 'many'");
-  EXPECT_EQ(input_error([] { with_setting({}, "class_weights", "1"); }),
-            "setting class_weights: expected true or false, not '1'");
-  EXPECT_EQ(input_error([] { with_setting({}, "preset", "paper"); }).rfind("setting 'preset' is not known", 0), 0U);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@
 #include "spincat/io/organized_cloud.h"
 #include "spincat/parallel/journal.h"
 #include "spincat/parallel/packing.h"
-#include "spincat/settings/named_settings.h"
+#include "spincat/settings/setting_choices.h"
 #include "spincat/settings/settings_json.h"
 #include "support/png_bytes.h"
 
@@ -268,8 +268,8 @@ void read_settings_text(std::string_view bytes) {
     return;
   }
   const std::size_t equals = bytes.find('=');
-  with_setting(preset("default"), bytes.substr(0, equals),
-               equals == std::string_view::npos ? std::string_view() : bytes.substr(equals + 1));
+  const std::string_view text = equals == std::string_view::npos ? std::string_view() : bytes.substr(equals + 1);
+  SettingChoices(preset("default"), {{std::string(bytes.substr(0, equals)), std::string(text), ""}}).settings();
 }
 
 void read_settings(std::string_view bytes, Refusals& refusals) {

@@ -287,10 +287,10 @@ TEST(JudgeSettings, AreRefusedOutOfRange) {
   const auto error = [](double c) {
     return test::input_error([&] { JudgeSettings{KernelKind::linear, c, true}.validate(); });
   };
-  EXPECT_EQ(error(0.0), "C 0 is out of range (above 0)");
-  EXPECT_EQ(error(-1.0), "C -1 is out of range (above 0)");
-  EXPECT_EQ(error(std::numeric_limits<double>::infinity()), "C inf is out of range (above 0)");
-  EXPECT_EQ(error(std::numeric_limits<double>::quiet_NaN()), "C nan is out of range (above 0)");
+  EXPECT_EQ(error(0.0), "c 0: expected a number above 0");
+  EXPECT_EQ(error(-1.0), "c -1: expected a number above 0");
+  EXPECT_EQ(error(std::numeric_limits<double>::infinity()), "c inf: expected a number above 0");
+  EXPECT_EQ(error(std::numeric_limits<double>::quiet_NaN()), "c nan: expected a number above 0");
   EXPECT_EQ(error(1e-9), "no error");
 }
 

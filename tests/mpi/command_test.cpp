@@ -60,13 +60,13 @@ TEST_P(UnderMpi, SpinImagesAreTheSameBytes) {
 
 TEST_P(UnderMpi, BothDivisionsGiveTheSameFeatures) {
   make_scan("scan.off", 40);
-  const std::string encode = "--encode pooled-pyramid --image-width 16 --bin-size 0.1rel ";
-  ASSERT_EQ(alone("spin scan.off -o alone.npy " + encode).code, 0);
+  const std::string settings = "--points 4096 --spin-points 4096 --image-width 16 --bin-size 0.1rel ";
+  ASSERT_EQ(alone("describe scan.off -o alone.npy " + settings).code, 0);
   const std::string expected = bytes("alone.npy");
   ASSERT_GT(expected.size(), 1'000U);
   for (const int ranks : {1, 2, 3}) {
     for (const char* divide : {"sums", "images"}) {
-      run(ranks, fmt::format("spin scan.off -o ranks.npy {} --divide {}", encode, divide));
+      run(ranks, fmt::format("describe scan.off -o ranks.npy {} --divide {}", settings, divide));
       EXPECT_TRUE(bytes("ranks.npy") == expected) << ranks << " ranks, " << divide;
     }
   }

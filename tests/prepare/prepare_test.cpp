@@ -263,12 +263,11 @@ TEST(PrepareSettings, AreRefusedOutOfRange) {
     settings.*field = value;
     return input_error([&] { prepare(test::box(), settings, 1); });
   };
-  EXPECT_EQ(error(&PrepareSettings::points, 0), "number of surface points 0 is out of range (1 to 10000000)");
-  EXPECT_EQ(error(&PrepareSettings::points, 10'000'001),
-            "number of surface points 10000001 is out of range (1 to 10000000)");
-  EXPECT_EQ(error(&PrepareSettings::spin_points, -5), "number of spin points -5 is out of range (1 to 10000000)");
-  EXPECT_EQ(error(&PrepareSettings::neighbours, 2), "number of neighbours 2 is out of range (3 to 1000)");
-  EXPECT_EQ(error(&PrepareSettings::neighbours, 1001), "number of neighbours 1001 is out of range (3 to 1000)");
+  EXPECT_EQ(error(&PrepareSettings::points, 0), "points 0: expected 1 to 10,000,000");
+  EXPECT_EQ(error(&PrepareSettings::points, 10'000'001), "points 10000001: expected 1 to 10,000,000");
+  EXPECT_EQ(error(&PrepareSettings::spin_points, -5), "spin_points -5: expected 1 to 10,000,000");
+  EXPECT_EQ(error(&PrepareSettings::neighbours, 2), "neighbours 2: expected 3 to 1,000");
+  EXPECT_EQ(error(&PrepareSettings::neighbours, 1001), "neighbours 1001: expected 3 to 1,000");
 }
 
 TEST(StretchedCopy, StretchesEachAxisWithinTheAmount) {

@@ -167,21 +167,21 @@ TEST(SettingsJson, DoesNotCutNumbers) {
 }
 
 TEST(SettingsJson, NamesAFieldOutOfRange) {
-  EXPECT_EQ(error_with("points", 0), "number of surface points 0 is out of range (1 to 10000000)");
-  EXPECT_EQ(error_with("spin_points", -1), "number of spin points -1 is out of range (1 to 10000000)");
-  EXPECT_EQ(error_with("neighbours", 2), "number of neighbours 2 is out of range (3 to 1000)");
-  EXPECT_EQ(error_with("image_width", 264), "image width 264 is out of range (1 to 256)");
-  EXPECT_EQ(error_with("bin_size", 0), "bin size 0 is out of range (above 0)");
-  EXPECT_EQ(error_with("bin_size", std::numeric_limits<double>::infinity()), "bin size inf is out of range (above 0)");
-  EXPECT_EQ(error_with("support_angle", 181), "support angle 181 is out of range (0 to 180 degrees)");
-  EXPECT_EQ(error_with("c", std::numeric_limits<double>::quiet_NaN()), "C nan is out of range (above 0)");
-  EXPECT_EQ(error_with("draws", 0), "number of draws 0 is out of range (1 to 100)");
+  EXPECT_EQ(error_with("points", 0), "points 0: expected 1 to 10,000,000");
+  EXPECT_EQ(error_with("spin_points", -1), "spin_points -1: expected 1 to 10,000,000");
+  EXPECT_EQ(error_with("neighbours", 2), "neighbours 2: expected 3 to 1,000");
+  EXPECT_EQ(error_with("image_width", 264), "image_width 264: expected 1 to 256");
+  EXPECT_EQ(error_with("bin_size", 0), "bin_size 0: expected a number above 0");
+  EXPECT_EQ(error_with("bin_size", std::numeric_limits<double>::infinity()), "bin_size inf: expected a number above 0");
+  EXPECT_EQ(error_with("support_angle", 181), "support_angle 181: expected 0 to 180");
+  EXPECT_EQ(error_with("c", std::numeric_limits<double>::quiet_NaN()), "c nan: expected a number above 0");
+  EXPECT_EQ(error_with("draws", 0), "draws 0: expected 1 to 100");
   EXPECT_EQ(error_with("up", "w"), "up 'w' is not known (one of none, x, y, z)");
   EXPECT_EQ(error_with("trained_for", "scans"), "trained_for 'scans' is not known (one of meshes, any, views)");
-  EXPECT_EQ(error_with("words", 1), "number of words 1 is out of range (2 to 65536)");
-  EXPECT_EQ(error_with("copies", 101), "number of copies 101 is out of range (0 to 100)");
-  EXPECT_EQ(error_with("views", 0), "number of views 0 is out of range (1 to 1000)");
-  EXPECT_EQ(error_with("stretch", 2.5), "stretch 2.5 is out of range (0 to 2)");
+  EXPECT_EQ(error_with("words", 1), "words 1: expected 2 to 65,536");
+  EXPECT_EQ(error_with("copies", 101), "copies 101: expected 0 to 100");
+  EXPECT_EQ(error_with("views", 0), "views 0: expected 1 to 1,000");
+  EXPECT_EQ(error_with("stretch", 2.5), "stretch 2.5: expected 0 to 2");
   EXPECT_EQ(error_with("surface", "skin"), "surface 'skin' is not known (one of vertices, samples, external)");
   EXPECT_EQ(error_with("bin_size_unit", ""), "bin_size_unit '' is not known (one of absolute, resolution, relative)");
   EXPECT_EQ(error_with("encoding", "x"),

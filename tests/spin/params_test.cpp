@@ -27,7 +27,7 @@ TEST(SpinImageParams, RefusesAnImageWidthOutOfRange) {
   SpinImageParams params;
   for (const int width : {0, -1, 257}) {
     params.image_width = width;
-    EXPECT_NE(complaint(params).find("image width"), std::string::npos) << width;
+    EXPECT_NE(complaint(params).find("image_width"), std::string::npos) << width;
   }
   for (const int width : {1, 256}) {
     params.image_width = width;
@@ -40,7 +40,7 @@ TEST(SpinImageParams, RefusesABinSizeOutOfRange) {
   for (const double size :
        {0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     params.bin_size = size;
-    EXPECT_NE(complaint(params).find("bin size"), std::string::npos) << size;
+    EXPECT_NE(complaint(params).find("bin_size"), std::string::npos) << size;
   }
 }
 
@@ -48,7 +48,7 @@ TEST(SpinImageParams, RefusesASupportAngleOutOfRange) {
   SpinImageParams params;
   for (const double angle : {-1.0, 180.5, std::numeric_limits<double>::quiet_NaN()}) {
     params.support_angle = angle;
-    EXPECT_NE(complaint(params).find("support angle"), std::string::npos) << angle;
+    EXPECT_NE(complaint(params).find("support_angle"), std::string::npos) << angle;
   }
   params.convention = SpinConvention::pcl;
   params.support_angle = 91.0;

@@ -21,6 +21,7 @@
 #include "spincat/prepare/as_cloud.h"
 #include "spincat/train/feature_table.h"
 #include "spincat/train/judge_trainer.h"
+#include "support/copies.h"
 #include "support/expect_error.h"
 #include "support/shapes.h"
 #include "support/temp_dir.h"
@@ -102,8 +103,8 @@ TEST(Describe, AStretchedCopyIsAnother) {
   const Object object = test::box();
   const Settings settings = small_settings();
   EXPECT_EQ(describe(object, settings).values, describe(object, settings).values);
-  EXPECT_NE(describe(object, settings).values, describe(object, settings, 1).values);
-  EXPECT_NE(describe(object, settings, 2).values, describe(object, settings, 1).values);
+  EXPECT_NE(describe(object, settings).values, test::describe_copy(object, settings, 1).values);
+  EXPECT_NE(test::describe_copy(object, settings, 2).values, test::describe_copy(object, settings, 1).values);
   Settings other = settings;
   other.seed = 2;
   EXPECT_NE(describe(object, settings).values, describe(object, other).values);
@@ -280,7 +281,7 @@ TEST(Train, RefusesSettingsBeforeAnyWork) {
               train(shapes(), settings,
                     {.progress = [&](std::string_view, std::size_t, std::size_t) { started = true; }});
             }),
-            "number of copies -1 is out of range (0 to 100)");
+            "copies -1: expected 0 to 100");
   EXPECT_FALSE(started);
 }
 
@@ -389,7 +390,7 @@ TEST(Describe, CloudCopiesAreClouds) {
   // As many points as asked for, and not those that can be seen of a mesh: all of them may be drawn from a hidden face.
   const Object object = test::box();
   for (int copy = 1; copy < 5; ++copy) {
-    const PreparedObject prepared = prepare_object(object, settings, copy).object;
+    const PreparedObject prepared = test::prepare_copy(object, settings, copy).object;
     double off_surface = 0.0;
     for (std::size_t i = 0; i < prepared.surface.size(); ++i) {
       const Eigen::Vector3f n = prepared.surface.normal(i);

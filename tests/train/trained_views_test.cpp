@@ -12,6 +12,7 @@
 #include "spincat/files/file.h"
 #include "spincat/parallel/task_farm.h"
 #include "spincat/train/train.h"
+#include "support/copies.h"
 #include "support/expect_error.h"
 #include "support/tiny_dataset.h"
 
@@ -48,7 +49,9 @@ TEST(TaughtByViews, GivesARowForEachView) {
 
 TEST(DescribeViews, EachViewAndEachMeshIsSeenFromAnotherPlace) {
   const Settings settings = view_settings(3);
-  const auto values = [&](const Object& object, int view) { return describe(object, settings, view).values; };
+  const auto values = [&](const Object& object, int view) {
+    return test::describe_copy(object, settings, view).values;
+  };
   const Object box = test::box(1, 2, 3);
   EXPECT_EQ(values(box, 0), values(box, 0));
   EXPECT_NE(values(box, 0), values(box, 1));
@@ -59,7 +62,7 @@ TEST(DescribeViews, EachViewAndEachMeshIsSeenFromAnotherPlace) {
   EXPECT_NE(values(moved, 0), values(box, 0));
   Settings other = settings;
   other.seed = 2;
-  EXPECT_NE(describe(box, other, 0).values, values(box, 0));
+  EXPECT_NE(test::describe_copy(box, other, 0).values, values(box, 0));
 }
 
 TEST(DescribeViews, ACloudIsAViewAlready) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "spincat/describe/stopwatch.h"
+#include "spincat/describe/training_copies.h"
 #include "spincat/error.h"
 #include "spincat/files/paths.h"
 #include "spincat/io/read_object.h"
@@ -12,7 +13,9 @@ namespace spincat {
 Classification classify(const Model& model, const Object& object, const EncodePrepared& elsewhere) {
   Classification result;
   result.kind_mismatch = kind_mismatch(kind_of(object), model.kinds, model.settings.trained_for);
-  const FeatureVector features = describe(object, model.settings, 0, &result.seconds, elsewhere);
+  const std::optional<Object> shown = shown_instead(object, model.settings);
+  const FeatureVector features =
+      describe(shown ? *shown : object, model.settings, points_seed(model.settings), &result.seconds, elsewhere);
   if (features.values.size() != model.feature_length()) {
     throw InputError(
         fmt::format("gives {} features where the model expects {}", features.values.size(), model.feature_length()));

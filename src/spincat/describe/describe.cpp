@@ -1,21 +1,16 @@
 #include "spincat/describe/describe.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <utility>
-#include <variant>
 #include <vector>
 
-#include "spincat/camera/render/views.h"
 #include "spincat/describe/stopwatch.h"
 #include "spincat/encode/block_sums.h"
 #include "spincat/encode/encoding.h"
 #include "spincat/geometry/random.h"
-#include "spincat/prepare/as_cloud.h"
 #include "spincat/prepare/prepare.h"
 #include "spincat/prepare/resolution.h"
 #include "spincat/spin/spin_images.h"
@@ -33,8 +28,6 @@ StageSeconds& StageSeconds::operator+=(const StageSeconds& other) {
 
 namespace {
 
-constexpr double kCloudNoise = 0.01;  // of the diameter
-
 // The bin size in the unit of prepared points. `given` is the object they were made of.
 double prepared_bin_size(const Object& given, const PreparedObject& prepared, const Settings& settings) {
   switch (settings.bin_size_unit) {
@@ -48,50 +41,10 @@ double prepared_bin_size(const Object& given, const PreparedObject& prepared, co
   return settings.spin.bin_size;  // the prepared object's radius is 1
 }
 
-// What the random numbers of an object are for (derive_seed's purpose).
-enum Purpose : std::uint64_t { kCloud = 200, kDraw = 201, kView = 202 };
+constexpr std::uint64_t kDraw = 201;  // derive_seed's purpose
 
-// A number of the mesh itself. From the same places, models that face the same way would look more alike than they are.
-std::uint64_t seed_of(const Mesh& mesh) {
-  std::uint64_t seed = mesh.triangles.size();
-  for (const Vec3& v : mesh.vertices) {
-    for (const double x : v) {
-      seed = derive_seed(seed, std::bit_cast<std::uint64_t>(x));
-    }
-  }
-  return seed;
-}
-
-PointCloud view_number(const Mesh& mesh, const Settings& settings, int view) {
-  ViewSettings view_settings;
-  view_settings.up = settings.up;
-  const std::uint64_t seed = derive_seed(derive_seed(settings.seed, kView), seed_of(mesh));
-  return view_of(mesh, view_settings, derive_seed(seed, static_cast<std::uint64_t>(view)));
-}
-
-// What copy number `copy` of an object is: stretched, or stretched and turned into a cloud, or a view. Nothing where it
-// is the object itself.
-std::optional<Object> shape_of_copy(const Object& object, const Settings& settings, int copy) {
-  if (settings.trained_for == TrainedFor::views) {
-    const Mesh* const mesh = std::get_if<Mesh>(&object);
-    return mesh != nullptr ? std::optional<Object>(view_number(*mesh, settings, copy)) : std::nullopt;
-  }
-  if (copy == 0) {
-    return std::nullopt;
-  }
-  Object shape = stretched_copy(object, copy, settings.stretch, settings.seed);
-  if (copy <= settings.copies) {
-    return shape;
-  }
-  // Every other cloud is exact, the others are as noisy as a good scan is at worst.
-  const double noise = (copy - settings.copies) % 2 == 1 ? kCloudNoise : 0.0;
-  const std::uint64_t seed = derive_seed(derive_seed(settings.seed, kCloud), static_cast<std::uint64_t>(copy));
-  return as_cloud(shape, static_cast<std::size_t>(settings.prepare.points), noise, seed);
-}
-
-// A copy gets points of its own: another look at another shape. So does every draw.
-std::uint64_t seed_of(const Settings& settings, int copy, int draw) {
-  const std::uint64_t seed = derive_seed(settings.seed, static_cast<std::uint64_t>(copy));
+// Every draw gets points of its own.
+std::uint64_t seed_of_draw(std::uint64_t seed, int draw) {
   return draw == 0 ? seed : derive_seed(derive_seed(seed, kDraw), static_cast<std::uint64_t>(draw));
 }
 
@@ -165,9 +118,12 @@ void append(const FeatureVector& part, float factor, FeatureVector& whole) {
 
 }  // namespace
 
-Preparation prepare_object(const Object& object, const Settings& settings, int copy) {
-  const std::optional<Object> changed = shape_of_copy(object, settings, copy);
-  return prepare_part(changed ? *changed : object, settings, parts_of(settings)[0], seed_of(settings, copy, 0));
+std::uint64_t points_seed(const Settings& settings, int k) {
+  return derive_seed(settings.seed, static_cast<std::uint64_t>(k));
+}
+
+Preparation prepare_object(const Object& object, const Settings& settings, std::uint64_t seed) {
+  return prepare_part(object, settings, parts_of(settings)[0], seed);
 }
 
 std::vector<PreparedPart> prepare_parts(const Object& object, const Settings& settings) {
@@ -176,19 +132,17 @@ std::vector<PreparedPart> prepare_parts(const Object& object, const Settings& se
   std::vector<PreparedPart> prepared;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     for (int draw = 0; draw < settings.draws; ++draw) {
-      prepared.push_back({prepare_part(object, settings, parts[p], seed_of(settings, 0, draw)), parts[p].surface,
-                          parts[p].axes, p, factor});
+      prepared.push_back({prepare_part(object, settings, parts[p], seed_of_draw(points_seed(settings), draw)),
+                          parts[p].surface, parts[p].axes, p, factor});
     }
   }
   return prepared;
 }
 
-FeatureVector describe(const Object& object, const Settings& settings, int copy, StageSeconds* seconds,
-                       const EncodePrepared& elsewhere) {
+FeatureVector describe(const Object& object, const Settings& settings, std::uint64_t seed, StageSeconds* seconds,
+                       const EncodePrepared& encoder) {
   StageSeconds spent;
   Stopwatch watch;
-  const std::optional<Object> changed = shape_of_copy(object, settings, copy);
-  const Object& shape = changed ? *changed : object;
   const std::unique_ptr<Encoding> encoding = make_encoding(settings.encoding);
   const std::vector<Part> parts = parts_of(settings);
   const float factor = 1.0F / std::sqrt(static_cast<float>(parts.size()));
@@ -201,11 +155,11 @@ FeatureVector describe(const Object& object, const Settings& settings, int copy,
       if (settings.draws == 1 && k > 0 && same_points(parts[k - 1], part)) {
         turn_axes(part.axes, preparation.object.spin_points);
       } else {
-        preparation = prepare_part(shape, settings, part, seed_of(settings, copy, draw));
+        preparation = prepare_part(object, settings, part, seed_of_draw(seed, draw));
       }
       spent.prepare += watch.lap();
-      FeatureVector drawn = elsewhere ? elsewhere(preparation) : encoded(preparation, *encoding, watch, spent);
-      spent.spin += watch.lap();  // elsewhere: with encoding, they cannot be told apart
+      FeatureVector drawn = encoder ? encoder(preparation) : encoded(preparation, *encoding, watch, spent);
+      spent.spin += watch.lap();  // with an encoder of the caller: encoding too, they cannot be told apart
       if (draw == 0) {
         mean = std::move(drawn);
       } else {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -33,20 +34,26 @@ struct Preparation {
 // Makes the feature vector of prepared points somewhere else: dense_object.h shares them out.
 using EncodePrepared = std::function<FeatureVector(const Preparation&)>;
 
-// The feature vector of an object, or of its training copy number `copy`, 1 to settings.training_rows() - 1: the first
-// settings.copies are stretched, those after them are stretched and turned into clouds of settings.prepare.points
-// points, every other one exact and every other one with noise of 1 % of the diameter. With TrainedFor::views a mesh is
-// view number `copy` of it (camera/render/views.h), 0 included, no two meshes being looked at from the same places; a
-// cloud is taken to be a view and to stand upright, z up. On this thread unless `elsewhere` says otherwise.
-// Deterministic. Adds the time spent to `seconds` where one is given. Throws InputError (without a file name) when the
-// object has no extent, or shows nothing to a camera.
-FeatureVector describe(const Object& object, const Settings& settings, int copy = 0, StageSeconds* seconds = nullptr,
-                       const EncodePrepared& elsewhere = {});
+// The seed of the points of training copy number `k` of an object; 0: of the object itself, as it is named later.
+std::uint64_t points_seed(const Settings& settings, int k = 0);
 
-// The first stage of describe by itself, for those who want the spin images: of an object, or of its training copy
-// number `copy`; the first part's first draw. Deterministic. Throws as describe does, and when the bin size is out of
-// range for this object.
-Preparation prepare_object(const Object& object, const Settings& settings, int copy = 0);
+// The feature vector of an object, from points drawn by `seed`. On this thread unless `encoder` says otherwise.
+// Deterministic. Adds the time spent to `seconds` where one is given. Throws InputError (without a file name) when the
+// object has no extent.
+FeatureVector describe(const Object& object, const Settings& settings, std::uint64_t seed,
+                       StageSeconds* seconds = nullptr, const EncodePrepared& encoder = {});
+
+// The same from the points by which the object is named.
+inline FeatureVector describe(const Object& object, const Settings& settings) {
+  return describe(object, settings, points_seed(settings));
+}
+
+// The first stage of describe by itself, for those who want the spin images: the first part's first draw.
+// Deterministic. Throws as describe does, and when the bin size is out of range for this object.
+Preparation prepare_object(const Object& object, const Settings& settings, std::uint64_t seed);
+inline Preparation prepare_object(const Object& object, const Settings& settings) {
+  return prepare_object(object, settings, points_seed(settings));
+}
 
 // What one part of an object's feature vector is made of, in one draw of its points.
 struct PreparedPart {

@@ -10,6 +10,7 @@
 #include "spincat/describe/packed_limits.h"
 #include "spincat/describe/rank_problems.h"
 #include "spincat/describe/stopwatch.h"
+#include "spincat/describe/training_copies.h"
 #include "spincat/encode/encoding.h"
 #include "spincat/error.h"
 #include "spincat/io/read_object.h"
@@ -30,16 +31,9 @@ Object read_or_refuse(const std::function<Object()>& read) {
   }
 }
 
-Described described_file(const std::filesystem::path& file, int views, const ReadLimits& limits,
-                         const DescribeOne& describe_one) {
-  return describe_object([&] { return read_listed_object(file, limits); }, views, describe_one);
-}
-
-Work describe_work(const Settings& settings, int views, const ReadLimits& limits) {
-  return [settings, views, limits](std::string_view file) {
-    return pack(described_file(file, views, limits, [&](const Object& object, int copy, StageSeconds& seconds) {
-      return describe(object, settings, copy, &seconds);
-    }));
+Work describe_work(const Settings& settings, int rows, const ReadLimits& limits) {
+  return [settings, rows, limits](std::string_view file) {
+    return pack(describe_object([&] { return read_listed_object(file, limits); }, rows, describe_copies(settings)));
   };
 }
 
@@ -54,10 +48,8 @@ void describe_by_points(TaskFarm& farm, const DescribeJob& job, const DeliverDes
   };
   const EncodePrepared elsewhere = encode_on(farm, job.settings, job.split, at_work);
   for (std::size_t i = 0; i < job.files; ++i) {
-    Described one =
-        described_file(job.file(i), job.views, job.limits, [&](const Object& object, int copy, StageSeconds& seconds) {
-          return describe(object, job.settings, copy, &seconds, elsewhere);
-        });
+    Described one = describe_object([&] { return read_listed_object(job.file(i), job.limits); }, job.views,
+                                    describe_copies(job.settings, elsewhere));
     std::vector<std::vector<float>> numbers;
     std::vector<FeatureBytes> values;
     for (FeatureVector& features : one.features) {
@@ -72,7 +64,19 @@ void describe_by_points(TaskFarm& farm, const DescribeJob& job, const DeliverDes
 
 }  // namespace
 
-Described describe_object(const std::function<Object()>& read, int rows, const DescribeOne& describe_one) {
+DescribeRow describe_copies(const Settings& settings, const EncodePrepared& encoder) {
+  return [&settings, encoder](const Object& object, int row, StageSeconds& seconds) {
+    if (row == 0 && settings.trained_for != TrainedFor::views) {  // without copying it
+      return describe(object, settings, points_seed(settings), &seconds, encoder);
+    }
+    Stopwatch watch;
+    const auto [copy, seed] = training_copy(object, settings, row);
+    seconds.prepare += watch.lap();
+    return describe(copy, settings, seed, &seconds, encoder);
+  };
+}
+
+Described describe_object(const std::function<Object()>& read, int rows, const DescribeRow& describe_row) {
   Described result;
   const auto refuse = [&](const std::string& problem) {
     result.features.clear();
@@ -84,7 +88,7 @@ Described describe_object(const std::function<Object()>& read, int rows, const D
     result.kind = kind_of(object);
     result.seconds.read = watch.lap();
     for (int row = 0; row < rows; ++row) {
-      result.features.push_back(describe_one(object, row, result.seconds));
+      result.features.push_back(describe_row(object, row, result.seconds));
     }
   } catch (const InputError& error) {
     refuse(error.problem());

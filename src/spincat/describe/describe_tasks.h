@@ -35,11 +35,14 @@ struct Described {
   StageSeconds seconds;
 };
 
-// Describes one object: `read` gives it, and `describe_one` describes it as it is (row 0) and in its other rows. What
-// is wrong with the object becomes its problem; so does memory that does not suffice for it, as others may need less.
-// All other errors are thrown.
-using DescribeOne = std::function<FeatureVector(const Object& object, int row, StageSeconds& seconds)>;
-Described describe_object(const std::function<Object()>& read, int rows, const DescribeOne& describe_one);
+// Describes one object: `read` gives it, and `describe_row` describes its rows, the first of which is the object itself
+// (or its first view). What is wrong with the object becomes its problem; so does memory that does not suffice for it,
+// as others may need less. All other errors are thrown.
+using DescribeRow = std::function<FeatureVector(const Object& object, int row, StageSeconds& seconds)>;
+Described describe_object(const std::function<Object()>& read, int rows, const DescribeRow& describe_row);
+
+// Row k is training copy k (training_copies.h). What is passed by reference must outlive the result.
+DescribeRow describe_copies(const Settings& settings, const EncodePrepared& encoder = {});
 
 // As a task's result.
 std::string pack(const Described& described);

@@ -9,7 +9,7 @@
 #include "spincat/dataset/parts.h"
 #include "spincat/error.h"
 #include "spincat/evaluate/sweep_journal.h"
-#include "spincat/settings/named_settings.h"
+#include "spincat/settings/setting_table.h"
 #include "spincat/settings/settings_json.h"
 
 namespace spincat {
@@ -38,7 +38,7 @@ void check(const std::vector<Variation>& variations) {
   constexpr std::size_t kMostPoints = 10'000;
   std::set<std::string> names;
   for (const Variation& variation : variations) {
-    if (!names.insert(setting_name(variation.setting)).second) {
+    if (!names.insert(std::string(find_setting(variation.setting).name)).second) {
       throw InputError(fmt::format("setting '{}' is varied twice", variation.setting));
     }
     if (std::set(variation.values.begin(), variation.values.end()).size() != variation.values.size()) {
@@ -51,11 +51,11 @@ void check(const std::vector<Variation>& variations) {
   }
 }
 
-Settings settings_at(Settings settings, const std::vector<Variation>& variations, const Values& values) {
+Settings settings_at(SettingChoices choices, const std::vector<Variation>& variations, const Values& values) {
   for (std::size_t v = 0; v < variations.size(); ++v) {
-    settings = with_setting(settings, variations[v].setting, values[v]);
+    choices = choices.with({variations[v].setting, values[v], ""});
   }
-  return settings;
+  return choices.settings();
 }
 
 // Everything that decides about the features.
@@ -66,16 +66,21 @@ std::string describing(const Settings& settings) {
 }
 
 // What a journal must agree in for its points to be ours. Threads are not in it: they change no rate.
-Json identity_of(const Dataset& dataset, const Settings& settings, const std::vector<Variation>& variations,
+Json identity_of(const Dataset& dataset, const SettingChoices& settings, const std::vector<Variation>& variations,
                  const EvaluateOptions& options) {
   Json varied = Json::object();
   for (const Variation& variation : variations) {
-    varied[setting_name(variation.setting)] = variation.values;
+    varied[find_setting(variation.setting).name] = variation.values;
+  }
+  Json chosen = Json::object();
+  for (const ChosenSetting& one : settings.chosen) {
+    chosen[find_setting(one.name).name] = one.text;
   }
   return {{"sweep", 1},
           {"version", "spincat " SPINCAT_VERSION},
           {"data set", list_checksum(dataset.objects, dataset.categories)},
-          {"settings", settings_to_json(settings)},
+          {"settings", settings_to_json(settings.base)},
+          {"chosen", chosen},
           {"variations", varied},
           {"options",
            {{"leave_one_out", options.leave_one_out},
@@ -93,7 +98,7 @@ Json identity_of(const Dataset& dataset, const Settings& settings, const std::ve
 
 }  // namespace
 
-Sweep sweep(const Dataset& dataset, const Settings& settings, const std::vector<Variation>& variations,
+Sweep sweep(const Dataset& dataset, const SettingChoices& settings, const std::vector<Variation>& variations,
             const EvaluateOptions& options, const Execution& execution, const std::filesystem::path& journal_file) {
   check(variations);
   options.validate();
@@ -127,8 +132,12 @@ Sweep sweep(const Dataset& dataset, const Settings& settings, const std::vector<
       at = missing.erase(at);
     }
   }
-  Sweep result{
-      dataset.name, dataset.objects.size(), list_checksum(dataset.objects, dataset.categories), variations, {}};
+  Sweep result{dataset.name,
+               dataset.objects.size(),
+               list_checksum(dataset.objects, dataset.categories),
+               settings_of[0],
+               variations,
+               {}};
   for (const Values& values : points) {
     result.points.push_back(*journal.find(values));
   }

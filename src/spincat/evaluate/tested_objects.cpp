@@ -139,9 +139,7 @@ Described describe_task(const TestedTask& task, const Settings& settings, const 
     return in_test_form(read_listed_object(std::filesystem::path(task.file), showing.limits), showing.options,
                         task.seed);
   };
-  return describe_object(read, settings.tested_rows(), [&](const Object& object, int view, StageSeconds& seconds) {
-    return describe(object, settings, view, &seconds);
-  });
+  return describe_object(read, settings.tested_rows(), describe_copies(settings));
 }
 
 Work tested_work(const Settings& settings, const Showing& showing) {

@@ -1,11 +1,5 @@
 #include "spincat/judge/settings.h"
 
-#include <fmt/format.h>
-
-#include <cmath>
-
-#include "spincat/error.h"
-
 namespace spincat {
 
 double default_c(KernelKind kernel) {
@@ -13,9 +7,7 @@ double default_c(KernelKind kernel) {
 }
 
 void JudgeSettings::validate() const {
-  if (!(c > 0.0) || !std::isfinite(c)) {
-    throw InputError(fmt::format("C {} is out of range (above 0)", c));
-  }
+  check_range("c", c, kC);
 }
 
 }  // namespace spincat

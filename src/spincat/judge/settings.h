@@ -1,6 +1,10 @@
 // How judges are trained.
 #pragma once
 
+#include <limits>
+
+#include "spincat/range.h"
+
 namespace spincat {
 
 // How alike two feature vectors x and y are.
@@ -14,9 +18,11 @@ double default_c(KernelKind kernel);
 
 struct JudgeSettings {
   KernelKind kernel = KernelKind::linear;
-  double c = 200.0;           // C of the C-SVM, > 0: the price of an error in training; see default_c
+  double c = 200.0;           // C of the C-SVM: the price of an error in training; see default_c
   bool class_weights = true;  // C of a category's objects is multiplied by N / (k n): N objects, n of this category, k
                               // categories, so that a large category does not outvote a small one
+
+  static constexpr Range kC{0.0, std::numeric_limits<double>::infinity(), true};
 
   // Throws InputError naming the field, its value and the allowed range.
   void validate() const;

@@ -5,6 +5,7 @@
 
 #include "spincat/geometry/object.h"
 #include "spincat/geometry/oriented_points.h"
+#include "spincat/range.h"
 
 namespace spincat {
 
@@ -24,9 +25,13 @@ enum class NormalOrientation {
 struct PrepareSettings {
   SurfaceKind surface = SurfaceKind::external;
   NormalOrientation orientation = NormalOrientation::outward;
-  int points = 2048;      // surface points, 1 to 10,000,000; SurfaceKind::vertices takes all vertices instead
-  int spin_points = 256;  // M, 1 to 10,000,000
-  int neighbours = 24;    // of a cloud's point, for its normal, 3 to 1,000
+  int points = 2048;      // surface points; SurfaceKind::vertices takes all vertices instead
+  int spin_points = 256;  // M
+  int neighbours = 24;    // of a cloud's point, for its normal
+
+  static constexpr Range kPoints{1, 10'000'000};
+  static constexpr Range kSpinPoints{1, 10'000'000};
+  static constexpr Range kNeighbours{3, 1'000};
 
   // Throws InputError naming the field, its value and the allowed range.
   void validate() const;

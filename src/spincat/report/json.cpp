@@ -91,4 +91,17 @@ std::string spin_json(const std::string& file, std::size_t spin_points, const Sp
                {"bin_size", params.bin_size / object.scale}});
 }
 
+std::string features_json(const std::string& file, std::size_t objects, std::size_t features, const Settings& settings,
+                          const std::vector<SkippedObject>& left_out) {
+  Json skipped = Json::array();
+  for (const SkippedObject& object : left_out) {
+    skipped.push_back({{"file", object.file.string()}, {"error", object.reason}});
+  }
+  return line({{"file", file},
+               {"objects", objects},
+               {"features", features},
+               {"left_out", skipped},
+               {"settings", settings_to_json(settings)}});
+}
+
 }  // namespace spincat

@@ -43,4 +43,8 @@ std::string training_json(const std::string& file, const TrainResult& result);
 std::string spin_json(const std::string& file, std::size_t spin_points, const SpinImageParams& params,
                       const PreparedObject& object);
 
+// What describe wrote.
+std::string features_json(const std::string& file, std::size_t objects, std::size_t features, const Settings& settings,
+                          const std::vector<SkippedObject>& left_out);
+
 }  // namespace spincat

@@ -4,25 +4,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "spincat/report/csv_field.h"
 #include "spincat/report/json_parts.h"
 #include "spincat/report/text.h"
 #include "spincat/report/text_table.h"
+#include "spincat/settings/setting_table.h"
 #include "spincat/settings/settings_json.h"
 
 namespace spincat {
 namespace {
-
-// One field of a CSV file by RFC 4180.
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) {
-    return text;
-  }
-  std::string quoted = "\"";
-  for (const char c : text) {
-    quoted += c == '"' ? "\"\"" : std::string(1, c);
-  }
-  return quoted + "\"";
-}
 
 std::string rate_fields(const Rate& rate) {
   return fmt::format("{},{},{},{}", rate.mean, rate.deviation, rate.interval.low, rate.interval.high);
@@ -96,6 +86,10 @@ std::string sweep_json(const Sweep& sweep, const Settings& settings, const Evalu
   for (const SweepPoint& point : sweep.points) {
     points.push_back(point_json(sweep, point));
   }
+  Json others = settings_to_json(settings);
+  for (const Variation& variation : sweep.variations) {
+    others.erase(std::string(find_setting(variation.setting).name));
+  }
   const std::vector<std::uint64_t> seeds =
       options.split_seeds.empty() ? std::vector{settings.seed} : options.split_seeds;
   return line({{"dataset", sweep.dataset},
@@ -110,7 +104,7 @@ std::string sweep_json(const Sweep& sweep, const Settings& settings, const Evalu
                  {"test_share", options.test_share},
                  {"split_seeds", seeds},
                  {"list_checksum", sweep.list_checksum}}},
-               {"settings", settings_to_json(settings)}});
+               {"settings", others}});
 }
 
 std::string sweep_csv(const Sweep& sweep) {

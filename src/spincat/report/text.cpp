@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "spincat/report/text_table.h"
-#include "spincat/settings/setting_names.h"
+#include "spincat/settings/setting_table.h"
 
 namespace spincat {
 
@@ -69,6 +69,24 @@ std::string ballot_text(const Ballot& ballot, const std::vector<std::string>& ca
   return text;
 }
 
+// The settings of a stage that have an effect, as "spin points 256, neighbours 24".
+std::string stage_text(const Settings& settings, SettingStage stage) {
+  std::string text;
+  for (const Setting& setting : setting_table()) {
+    if (setting.stage == stage && (setting.no_effect == nullptr || setting.no_effect(settings).empty())) {
+      std::string name(setting.name);
+      std::ranges::replace(name, '_', ' ');
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, setting_text(settings, setting));
+    }
+  }
+  return text;
+}
+
+constexpr std::pair<SettingStage, std::string_view> kStages[] = {{SettingStage::points, "points"},
+                                                                 {SettingStage::images, "spin images"},
+                                                                 {SettingStage::features, "features"},
+                                                                 {SettingStage::training, "training"}};
+
 std::string model_text(const Model& model, std::size_t width) {
   constexpr std::size_t kKey = 13;
   const Settings& s = model.settings;
@@ -85,15 +103,10 @@ std::string model_text(const Model& model, std::size_t width) {
   }
   add("categories", categories);
   add("judges", fmt::format("{} of {} features", model.judges.size(), model.feature_length()));
-  add("preset", fmt::format("{}, seed {}, {} stretched copies of each object", s.preset, s.seed, s.copies));
-  add("surface", fmt::format("{}, {} points, {} spin points", name_of(s.prepare.surface), s.prepare.points,
-                             s.prepare.spin_points));
-  const std::string angle =
-      s.spin.angle_test == AngleTest::soft ? std::string("soft") : fmt::format("{}", s.spin.support_angle);
-  add("spin images",
-      fmt::format("{}, width {}, bin size {} {}, support angle {}, {} binning", name_of(s.spin.convention),
-                  s.spin.image_width, s.spin.bin_size, name_of(s.bin_size_unit), angle, name_of(s.spin.binning)));
-  add("encoding", s.encoding);
+  add("preset", s.preset);
+  for (const auto& [stage, name] : kStages) {
+    add(name, stage_text(s, stage));
+  }
   return text;
 }
 

@@ -45,26 +45,16 @@ void Settings::validate() const {
   judge.validate();
   const std::unique_ptr<Encoding> checked = make_encoding(encoding);
   checked->check(spin);
-  if (draws < 1 || draws > 100) {
-    throw InputError(fmt::format("number of draws {} is out of range (1 to 100)", draws));
-  }
+  check_range("draws", draws, kDraws);
+  check_range("words", words, kWords);
+  check_range("copies", copies, kCopies);
+  check_range("views", views, kViews);
+  check_range("stretch", stretch, kStretch);
   if (checked->gives_local_features() && (plain_samples || up != UpAxis::none || draws > 1)) {
     throw InputError(fmt::format("the encoding {} knows no plain samples, no up axis and only one draw", encoding));
   }
-  if (words < 2 || words > 65'536) {
-    throw InputError(fmt::format("number of words {} is out of range (2 to 65536)", words));
-  }
-  if (copies < 0 || copies > 100) {
-    throw InputError(fmt::format("number of copies {} is out of range (0 to 100)", copies));
-  }
-  if (views < 1 || views > 1'000) {
-    throw InputError(fmt::format("number of views {} is out of range (1 to 1000)", views));
-  }
   if (trained_for == TrainedFor::views && up == UpAxis::none) {
     throw InputError("views of models need to know which axis points up (x, y or z)");
-  }
-  if (!(stretch >= 0.0 && stretch <= 2.0)) {
-    throw InputError(fmt::format("stretch {} is out of range (0 to 2)", stretch));
   }
 }
 

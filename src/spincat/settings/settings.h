@@ -9,6 +9,7 @@
 #include "spincat/geometry/up_axis.h"
 #include "spincat/judge/settings.h"
 #include "spincat/prepare/prepare.h"
+#include "spincat/range.h"
 #include "spincat/spin/params.h"
 
 namespace spincat {
@@ -40,14 +41,20 @@ struct Settings {
   bool plain_samples = false;  // the same of points drawn evenly from all faces, hidden ones too
   UpAxis up = UpAxis::none;    // the same with spin images whose axes all point up, instead of along the normals; with
                                // views the axis of the models (clouds are upright: z), and not none
-  int draws = 1;               // every part is the mean over so many draws of points, 1 to 100
-  int words = 256;             // of the codebook that the bag-of-features encoding learns, 2 to 65,536
+  int draws = 1;               // every part is the mean over so many draws of points
+  int words = 256;             // of the codebook that the bag-of-features encoding learns
   JudgeSettings judge;
-  int copies = 6;                               // stretched copies of each training object, 0 to 100
+  int copies = 6;                               // stretched copies of each training object
   TrainedFor trained_for = TrainedFor::meshes;  // any: besides, as many stretched copies turned into clouds
-  int views = 12;                               // of each training object where trained_for says so, 1 to 1,000
-  double stretch = 0.2;                         // each axis of a copy is stretched by exp(U(-stretch, stretch)), 0 to 2
+  int views = 12;                               // of each training object where trained_for says so
+  double stretch = 0.2;                         // each axis of a copy is stretched by exp(U(-stretch, stretch))
   std::uint64_t seed = 1;                       // of every random choice
+
+  static constexpr Range kDraws{1, 100};
+  static constexpr Range kWords{2, 65'536};
+  static constexpr Range kCopies{0, 100};
+  static constexpr Range kViews{1, 1'000};
+  static constexpr Range kStretch{0.0, 2.0};
 
   // How many parts a feature vector has, all of one length.
   int parts() const { return 1 + (plain_samples ? 1 : 0) + (up != UpAxis::none ? 1 : 0); }

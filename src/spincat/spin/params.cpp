@@ -29,21 +29,14 @@ float SpinImageParams::least_cosine() const {
 }
 
 void SpinImageParams::validate() const {
-  if (image_width < 1 || image_width > 256) {
-    throw InputError(fmt::format("image width {} is out of range (1 to 256)", image_width));
-  }
-  if (!(bin_size > 0.0) || !std::isfinite(bin_size)) {
-    throw InputError(fmt::format("bin size {} is out of range (above 0)", bin_size));
-  }
-  if (!(support_angle >= 0.0 && support_angle <= 180.0)) {
-    throw InputError(fmt::format("support angle {} is out of range (0 to 180 degrees)", support_angle));
-  }
+  check_range("image_width", image_width, kImageWidth);
+  check_range("bin_size", bin_size, kBinSize);
+  check_range("support_angle", support_angle, kSupportAngle);
   if (convention == SpinConvention::pcl && (binning != Binning::bilinear || angle_test != AngleTest::cutoff)) {
     throw InputError("the pcl convention knows only bilinear binning and the support angle's cutoff");
   }
   if (convention == SpinConvention::pcl && support_angle > 90.0) {
-    throw InputError(
-        fmt::format("support angle {} is out of range (0 to 90 degrees in the pcl convention)", support_angle));
+    throw InputError(fmt::format("support_angle {}: expected 0 to 90 in the pcl convention", support_angle));
   }
 }
 

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
+
+#include "spincat/range.h"
 
 namespace spincat {
 
@@ -32,11 +35,15 @@ struct SpinImageShape {
 
 struct SpinImageParams {
   SpinConvention convention = SpinConvention::johnson;
-  int image_width = 20;         // W, in bins, 1 to 256
-  double bin_size = 0.1;        // b, > 0, in the unit of the points
-  double support_angle = 60.0;  // A, in degrees, 0 to 180; 180 switches the test off (johnson), and so does 90 (pcl)
+  int image_width = 20;         // W, in bins
+  double bin_size = 0.1;        // b, in the unit of the points
+  double support_angle = 60.0;  // A, in degrees; 180 switches the test off (johnson), and so does 90 (pcl)
   Binning binning = Binning::bilinear;
   AngleTest angle_test = AngleTest::cutoff;
+
+  static constexpr Range kImageWidth{1, 256};
+  static constexpr Range kBinSize{0.0, std::numeric_limits<double>::infinity(), true};
+  static constexpr Range kSupportAngle{0.0, 180.0};  // to 90 in the pcl convention
 
   // D = W b: how far from the spin point's normal line a point may lie and still count.
   double support_distance() const { return image_width * bin_size; }

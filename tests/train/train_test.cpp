@@ -425,23 +425,23 @@ TEST(TrainJudges, TestObjectsDoNotInfluenceTheCodebook) {
       learned.push_back(object);
     }
   }
-  const auto train = [&] {
+  const auto trained = [&] {
     LocalFarm farm(2);
     return JudgeTrainer(table, settings.judge, farm.farm(), {}).train(learned);
   };
-  const JudgeList before = train();
+  const JudgeList before = trained();
   EXPECT_EQ(before.codebook.words.rows(), 8);
   const std::vector<std::uint32_t> tested = {0, 3, 6, 9, 12, 15, 18, 21};
   for (const std::uint32_t row : table.rows_of(tested)) {
     table.features.row(row).setConstant(7.0F);
   }
-  const JudgeList after = train();
+  const JudgeList after = trained();
   EXPECT_TRUE(after.codebook.words == before.codebook.words);
   EXPECT_TRUE(after.weights == before.weights);
   for (const std::uint32_t row : table.rows_of(std::vector<std::uint32_t>{1})) {
     table.features.row(row).setConstant(7.0F);
   }
-  EXPECT_FALSE(train().codebook.words == before.codebook.words);  // a training object does
+  EXPECT_FALSE(trained().codebook.words == before.codebook.words);  // a training object does
 }
 
 class Variant : public testing::TestWithParam<std::pair<const char*, KernelKind>> {};

@@ -79,7 +79,7 @@ TEST(DescribeViews, FollowTheModelsOwnUpAxis) {
   // The same tower, standing along y and along z.
   Settings settings = view_settings(1);
   const auto height_of = [&](const Mesh& mesh) {
-    const PreparedObject prepared = prepare_object(mesh, settings).object;
+    const PreparedObject prepared = test::prepare_copy(mesh, settings, 0).object;
     float low = 0.0F;
     float high = 0.0F;
     for (std::size_t i = 0; i < prepared.surface.size(); ++i) {

@@ -89,7 +89,7 @@ Features describe_all(const std::vector<InputFile>& inputs, const Settings& sett
                         [&](std::size_t i) -> const fs::path& { return *files[i]; },
                         settings,
                         1,
-                        arguments.run.division(),
+                        arguments.run.split(),
                         arguments.limits,
                         {}};
   describe_files(

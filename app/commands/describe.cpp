@@ -16,6 +16,7 @@
 #include "spincat/error.h"
 #include "spincat/files/file.h"
 #include "spincat/files/output_file.h"
+#include "spincat/files/paths.h"
 #include "spincat/io/npy.h"
 #include "spincat/report/csv_field.h"
 #include "spincat/report/json.h"
@@ -66,7 +67,7 @@ fs::path names_beside(fs::path output) {
 
 // Before the work, not after it.
 void check_outputs(const fs::path& output) {
-  if (output.extension() != ".npy") {
+  if (lower_extension(output) != ".npy") {
     throw InputError(output.string(), "expected a name that ends in .npy");
   }
   check_writable(output);

@@ -1,7 +1,6 @@
 // Options that several subcommands share.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -14,6 +13,10 @@
 #include "spincat/io/read_limits.h"
 #include "spincat/settings/setting_choices.h"
 #include "spincat/settings/setting_table.h"
+
+namespace CLI {
+class App;
+}
 
 namespace spincat::app {
 

@@ -1,10 +1,13 @@
 // The subcommands, one file and one line of commands.inc each.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace spincat {
 class TaskFarm;

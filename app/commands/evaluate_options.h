@@ -1,13 +1,16 @@
 // Options of measuring, which evaluate and sweep share.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 #include "app/options.h"
 #include "spincat/dataset/parts.h"
 #include "spincat/evaluate/evaluate.h"
+
+namespace CLI {
+class App;
+}
 
 namespace spincat::app {
 

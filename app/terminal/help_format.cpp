@@ -1,5 +1,6 @@
 #include "app/terminal/help_format.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstddef>
 #include <sstream>

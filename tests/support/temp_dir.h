@@ -15,7 +15,9 @@ class TempDir {
  public:
   TempDir() {
     std::string name = (std::filesystem::temp_directory_path() / "spincat-test-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make the folder " + name);
+    if (::mkdtemp(name.data()) == nullptr) {
+      throw std::runtime_error("cannot make the folder " + name);
+    }
     path_ = name;
   }
   ~TempDir() {
@@ -34,7 +36,9 @@ class TempDir {
     std::filesystem::create_directories(file.parent_path());
     std::ofstream out(file, std::ios::binary);
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
+    if (!out.flush()) {
+      throw std::runtime_error("cannot write " + file.string());
+    }
     return file;
   }
 

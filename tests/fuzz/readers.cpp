@@ -24,13 +24,19 @@
 #include "spincat/error.h"
 #include "spincat/evaluate/sweep_journal.h"
 #include "spincat/files/magic.h"
-#include "spincat/io/formats/formats.h"
+#include "spincat/io/formats/format.h"
 #include "spincat/io/organized_cloud.h"
 #include "spincat/parallel/journal.h"
 #include "spincat/parallel/packing.h"
 #include "spincat/settings/setting_choices.h"
 #include "spincat/settings/settings_json.h"
 #include "support/png_bytes.h"
+
+namespace spincat::io {
+#define FORMAT(name) ObjectFormat name##_format();
+#include "spincat/io/formats/formats.inc"
+#undef FORMAT
+}  // namespace spincat::io
 
 namespace spincat::test {
 namespace {
@@ -155,19 +161,21 @@ void check_object(const Object& object) {
   }
 }
 
-template <Object (*read)(std::string_view, const ReadLimits&)>
+template <io::ObjectFormat (*kFormat)()>
 void read_object_file(std::string_view bytes, Refusals& refusals) {
-  attempt([&] { check_object(read(bytes, {})); }, refusals);
+  static const io::ObjectFormat kKept = kFormat();
+  attempt([&] { check_object(kKept.read({bytes, {}}, {})); }, refusals);
 }
 
 void read_pcd(std::string_view bytes, Refusals& refusals) {
-  read_object_file<io::read_pcd>(bytes, refusals);
+  read_object_file<io::pcd_format>(bytes, refusals);
   attempt([&] { read_organized_pcd(bytes); }, refusals);
 }
 
 void read_gltf(std::string_view bytes, Refusals& refusals) {
   static const FolderBeside kFolder;
-  attempt([&] { check_object(io::read_gltf(bytes, kFolder.path(), {})); }, refusals);
+  static const io::ObjectFormat kFormat = io::gltf_format();
+  attempt([&] { check_object(kFormat.read({bytes, kFolder.path()}, {})); }, refusals);
 }
 
 void read_csv(std::string_view bytes, Refusals& refusals) {
@@ -302,12 +310,12 @@ void read_camera(std::string_view bytes, Refusals& refusals) {
 
 using Reader = std::pair<std::string_view, void (*)(std::string_view, Refusals&)>;
 
-constexpr std::array kReaders = {Reader{"off", read_object_file<io::read_off>},
-                                 Reader{"obj", read_object_file<io::read_obj>},
-                                 Reader{"ply", read_object_file<io::read_ply>},
-                                 Reader{"stl", read_object_file<io::read_stl>},
+constexpr std::array kReaders = {Reader{"off", read_object_file<io::off_format>},
+                                 Reader{"obj", read_object_file<io::obj_format>},
+                                 Reader{"ply", read_object_file<io::ply_format>},
+                                 Reader{"stl", read_object_file<io::stl_format>},
                                  Reader{"pcd", read_pcd},
-                                 Reader{"xyz", read_object_file<io::read_xyz>},
+                                 Reader{"xyz", read_object_file<io::xyz_format>},
                                  Reader{"gltf", read_gltf},
                                  Reader{"csv", read_csv},
                                  Reader{"cla", read_cla},

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <string>
 
-#include "spincat/camera/source/depth_image.h"
+#include "spincat/camera/source/frame_source.h"
 #include "spincat/classify/recogniser.h"
 #include "spincat/report/camera_report.h"
 

@@ -119,11 +119,11 @@ class CameraRun {
       masks_.emplace(arguments.masks, *writer_);
     }
     if (arguments.view) {
-      view_.emplace(ViewPlace::parse(*arguments.view), state_, model.categories);
+      view_.emplace(ViewPlace::parse(*arguments.view), state_, model.categories());
       message("watch at " + view_->url());
     }
     if (!json_) {
-      painter_.emplace(state_, model.categories);
+      painter_.emplace(state_, model.categories());
     }
     feed_ = arguments.real_time || is_kinect() ? feed_in_real_time(std::move(source), arguments.every)
                                                : feed_all(std::move(source), arguments.every);
@@ -166,7 +166,7 @@ class CameraRun {
     summary_.look.add(seen.seconds.all());
     summary_.read.add(fed.read_seconds);
     if (json_) {
-      fmt::print("{}\n", frame_json(facts, seen, model_.categories));
+      fmt::print("{}\n", frame_json(facts, seen, model_.categories()));
       std::fflush(stdout);
     }
     if (recorder_) {
@@ -242,10 +242,10 @@ class CameraRun {
 
 int run_camera(const CameraArguments& arguments) {
   const Model model = read_model(arguments.model);
-  if (model.settings.trained_for != TrainedFor::views && !arguments.run.quiet) {
+  if (model.settings().trained_for != TrainedFor::views && !arguments.run.quiet) {
     message(fmt::format(
         "{}: was trained for {}, not for what a camera sees; names will often be wrong (train --views 12 learns that)",
-        arguments.model.string(), name_of(model.settings.trained_for)));
+        arguments.model.string(), name_of(model.settings().trained_for)));
   }
   CameraRun run(arguments, model, arguments.run.thread_count());
   run.run();

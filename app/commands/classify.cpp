@@ -119,7 +119,7 @@ RunIdentity identity_of(const Model& model, const std::vector<InputFile>& inputs
   for (const InputFile& input : inputs) {
     data.add(input.file);
   }
-  return {settings_identity("classify", model.settings, limits_text(arguments.limits)), data.text()};
+  return {settings_identity("classify", model.settings(), limits_text(arguments.limits)), data.text()};
 }
 
 int run_classify(const ClassifyArguments& arguments, TaskFarm& farm) {

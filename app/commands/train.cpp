@@ -59,13 +59,12 @@ int run_train(const TrainArguments& arguments, TaskFarm& farm) {
     return RunIdentity{settings_identity("train", settings, limits_text(dataset.limits)), identity_of(dataset)};
   });
   Stopwatch watch;
-  TrainResult result;
-  {
+  const TrainResult result = [&] {
     ProgressBar bar(arguments.run);
     Execution execution = run.execution(bar.callback());
     execution.strict = arguments.dataset.strict;
-    result = train(dataset, settings, execution);
-  }
+    return train(dataset, settings, execution);
+  }();
   write_model(arguments.output, result.model);
   run.finish();
   report_skipped(result.skipped, arguments.run);

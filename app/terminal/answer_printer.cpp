@@ -38,7 +38,7 @@ AnswerPrinter::AnswerPrinter(const Model& model, const std::vector<std::string>&
   for (const std::string& file : files) {
     file_width_ = std::max(file_width_, text_width(printable(file)));
   }
-  for (const std::string& category : model.categories) {
+  for (const std::string& category : model.categories()) {
     category_width_ = std::max(category_width_, text_width(printable(category)));
   }
   if (is_terminal(STDOUT_FILENO)) {
@@ -84,13 +84,13 @@ void AnswerPrinter::print_text(const std::string& file, const Classification& c)
   }
   print_row(cut_in_the_middle(printable(file), file_width_), look_.rejects(c) ? "unknown" : name(c.ballot.winner),
             fmt::format("{:.2f}", c.confidence),
-            fmt::format("{}/{}", c.ballot.count[c.ballot.winner], model_.categories.size() - 1),
+            fmt::format("{}/{}", c.ballot.count[c.ballot.winner], model_.categories().size() - 1),
             name(c.ballot.runner_up), human_seconds(s.read + s.prepare + s.spin + s.encode + s.judge));
   if (look_.rejects(c)) {
     fmt::print("    not confident enough for {}\n", name(c.ballot.winner));
   }
   if (look_.votes) {
-    fmt::print("{}", ballot_text(c.ballot, model_.categories));
+    fmt::print("{}", ballot_text(c.ballot, model_.categories()));
   }
 }
 
@@ -101,7 +101,7 @@ void AnswerPrinter::print_row(const std::string& file, const std::string& catego
 }
 
 std::string AnswerPrinter::name(std::uint32_t category) const {
-  return cut_in_the_middle(printable(model_.categories[category]), category_width_);
+  return cut_in_the_middle(printable(model_.categories()[category]), category_width_);
 }
 
 }  // namespace spincat::app

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "spincat/dataset/dataset.h"
-#include "spincat/geometry/up_axis.h"
+#include "spincat/geometry/object.h"
 
 namespace spincat::bench {
 

@@ -166,7 +166,7 @@ Json kinect_figures(const fs::path& scenes, const fs::path& scratch, int views, 
       if (label == 0 || static_cast<double>(object.segment.pixels) < kLeastPixels) {
         continue;
       }
-      const bool is_right = (model.categories[object.ballot.winner] == "box") == is_box(name, label);
+      const bool is_right = (model.categories()[object.ballot.winner] == "box") == is_box(name, label);
       ++all;
       right += is_right ? 1 : 0;
       whole += is_whole ? 1 : 0;

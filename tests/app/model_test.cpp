@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "spincat/classify/model_data.h"
 #include "support/temp_dir.h"
 
 namespace {
@@ -43,7 +44,7 @@ class HostileModel : public testing::Test {
                   " train shapes -o good.spincat --copies 0 --points 64 --spin-points 8 --surface vertices"),
               0)
         << contents(dir_ / "err");
-    spincat::Model model = spincat::read_model(dir_ / "good.spincat");
+    spincat::ModelData model = spincat::read_model(dir_ / "good.spincat").data();
     model.categories = {"\x1B[31m\x1B]0;title\x07 </script><script>alert(1)</script>", "../../../etc/passwd"};
     model.dataset = "\x1B[2J/etc/shadow";
     model.made_by = "$(touch made) `touch made` \x1B[2J";

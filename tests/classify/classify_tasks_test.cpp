@@ -3,6 +3,7 @@
 #include "spincat/classify/classify.h"
 #include "spincat/dataset/dataset.h"
 #include "spincat/evaluate/evaluate.h"
+#include "spincat/evaluate/evaluation_data.h"
 #include "spincat/parallel/journal.h"
 #include "spincat/parallel/task_farm.h"
 #include "spincat/train/train.h"

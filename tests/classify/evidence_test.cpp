@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "spincat/classify/classify.h"
+#include "spincat/classify/model_data.h"
 #include "spincat/encode/encoding.h"
 #include "spincat/spin/spin_images.h"
 #include "spincat/train/train.h"
@@ -107,7 +108,7 @@ TEST(Evidence, LeavingOutIsWhatTheMarginFallsBy) {
     std::vector<double> values(sums->size(), 0.0);
     make_spin_images(object.surface, others, params,
                      [&](const SpinImageBlock& block) { sums->accumulate(block, values); });
-    const Ballot without = model.judges.vote(sums->finish(values).values);
+    const Ballot without = model.data().judges.vote(sums->finish(values).values);
     EXPECT_NEAR(evidence.parts[0].of_point[left_out],
                 evidence.margin - pair_margin(without, evidence.winner, evidence.runner_up), 1e-4);
   }
@@ -132,7 +133,7 @@ TEST(Evidence, EveryEncodingAndKernelIsExplained) {
 
 TEST(Evidence, OfManyPointsTheFirstAreLeftOut) {
   Settings settings = small_settings("mean-image", KernelKind::rbf);
-  Model model = trained(settings);
+  ModelData model = trained(settings).data();
   model.settings.prepare.points = 3000;
   model.settings.prepare.spin_points = static_cast<int>(kMostLeftOut) + 100;
   const Evidence evidence = explain(model, new_object(), classify(model, new_object()).ballot);

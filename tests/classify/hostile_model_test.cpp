@@ -12,6 +12,7 @@
 
 #include "spincat/classify/classify.h"
 #include "spincat/classify/model.h"
+#include "spincat/classify/model_data.h"
 #include "spincat/error.h"
 #include "spincat/files/file.h"
 #include "spincat/files/record_file.h"
@@ -28,8 +29,8 @@ using test::input_error;
 using test::TempDir;
 
 // Two categories, judges of three features.
-Model small_model() {
-  Model model;
+ModelData small_model() {
+  ModelData model;
   model.settings = preset("default");
   model.categories = {"chair", "table"};
   model.judges.categories = 2;
@@ -66,7 +67,7 @@ std::string problem_after(const std::function<void(Json&)>& change) {
 }
 
 // All that naming an object does with a model once it has features.
-void use(const Model& model) {
+void use(const ModelData& model) {
   const std::vector<float> features(model.feature_length(), 0.5F);
   const Ballot ballot = model.judges.vote(features);
   ASSERT_LT(ballot.winner, model.categories.size());
@@ -116,7 +117,7 @@ TEST(HostileModel, EveryChangedBitIsRefusedOrHarmless) {
     const auto file =
         dir.write("changed.spincat", bytes + std::string(reinterpret_cast<const char*>(&checksum), sizeof(checksum)));
     try {
-      use(read_model(file));
+      use(read_model(file).data());
     } catch (const InputError& error) {
       EXPECT_EQ(error.file(), file.string());
       ++refused;

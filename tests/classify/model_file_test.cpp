@@ -7,6 +7,7 @@
 #include <string>
 
 #include "spincat/classify/model.h"
+#include "spincat/classify/model_data.h"
 #include "spincat/files/file.h"
 #include "spincat/files/record_file.h"
 #include "spincat/settings/settings_json.h"
@@ -23,8 +24,8 @@ using test::TempDir;
 using Json = nlohmann::json;
 
 // Three categories, judges of five features.
-Model small_model() {
-  Model model;
+ModelData small_model() {
+  ModelData model;
   model.settings = preset("default");
   model.settings.seed = 77;
   model.categories = {"chair", "table", "\xC3\xA9tag\xC3\xA8re"};
@@ -57,8 +58,8 @@ std::string bytes_of(const Model& model) {
 }
 
 // The same categories, rbf judges that lean on four objects of five features.
-Model rbf_model() {
-  Model model = small_model();
+ModelData rbf_model() {
+  ModelData model = small_model();
   model.settings.judge.kernel = KernelKind::rbf;
   model.judges.kernel = {KernelKind::rbf, {2, 3}, {0.5F, 0.0F}};
   model.judges.supports.resize(4, 5);
@@ -73,8 +74,8 @@ Model rbf_model() {
 }
 
 // The same with a codebook of five words of two numbers.
-Model bag_model() {
-  Model model = small_model();
+ModelData bag_model() {
+  ModelData model = small_model();
   model.settings.encoding = "bag-of-features";
   model.settings.plain_samples = false;
   model.judges.codebook.words.resize(5, 2);
@@ -113,10 +114,10 @@ std::string problem_after(const std::function<void(Json&)>& change) {
 }
 
 TEST(ModelFile, RoundTripsExactly) {
-  const Model model = small_model();
+  const ModelData model = small_model();
   const TempDir dir;
   write_model(dir / "m.spincat", model);
-  const Model back = read_model(dir / "m.spincat");
+  const ModelData back = read_model(dir / "m.spincat").data();
   EXPECT_EQ(settings_to_json(back.settings), settings_to_json(model.settings));
   EXPECT_EQ(back.categories, model.categories);
   EXPECT_EQ(back.judges.categories, 3U);
@@ -238,10 +239,10 @@ TEST(ModelFile, HostileJudgesAreRefused) {
 }
 
 TEST(ModelFile, RbfJudgesRoundTripExactly) {
-  const Model model = rbf_model();
+  const ModelData model = rbf_model();
   const TempDir dir;
   write_model(dir / "m.spincat", model);
-  const Model back = read_model(dir / "m.spincat");
+  const ModelData back = read_model(dir / "m.spincat").data();
   EXPECT_EQ(back.judges.kernel.kind, KernelKind::rbf);
   EXPECT_EQ(back.judges.kernel.block_sizes, model.judges.kernel.block_sizes);
   EXPECT_EQ(back.judges.kernel.scale, model.judges.kernel.scale);
@@ -286,10 +287,10 @@ TEST(ModelFile, HostileRbfJudgesAreRefused) {
 }
 
 TEST(ModelFile, ACodebookRoundTripsExactly) {
-  const Model model = bag_model();
+  const ModelData model = bag_model();
   const TempDir dir;
   write_model(dir / "m.spincat", model);
-  const Model back = read_model(dir / "m.spincat");
+  const ModelData back = read_model(dir / "m.spincat").data();
   EXPECT_TRUE(back.judges.codebook.words == model.judges.codebook.words);
   EXPECT_EQ(back.feature_length(), 2U * kLocalFeatures);
   EXPECT_EQ(bytes_of(back), bytes_of(model));

@@ -121,7 +121,7 @@ TEST_P(Hostile, GeometryGivesFiniteFeaturesAndAValidBallotOrIsRefused) {
       for (const int row : {0, settings.training_rows() - 1}) {
         EXPECT_TRUE(all_finite(test::describe_copy(it.object, settings, row).values)) << "row " << row;
       }
-      expect_valid(classify(model, it.object), model.categories.size(), what);
+      expect_valid(classify(model, it.object), model.categories().size(), what);
     } catch (const InputError& error) {
       problem = error.what();
     }

@@ -11,6 +11,8 @@
 
 #include "spincat/dataset/parts.h"
 #include "spincat/error.h"
+#include "spincat/evaluate/evaluation_data.h"
+#include "spincat/evaluate/tested_objects.h"
 #include "spincat/parallel/journal.h"
 #include "spincat/parallel/task_farm.h"
 #include "support/expect_error.h"

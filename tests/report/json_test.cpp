@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "spincat/classify/model_data.h"
 #include "spincat/settings/settings_json.h"
 
 namespace spincat {
@@ -26,8 +27,8 @@ Keys keys_of(const Json& json) {
   return keys;
 }
 
-Model two_categories() {
-  Model model;
+ModelData two_categories() {
+  ModelData model;
   model.settings = preset("paper");
   model.categories = {"bed", "chair \"x\""};
   model.object_counts = {9, 69};

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "spincat/classify/model_data.h"
 #include "spincat/report/base64.h"
 #include "spincat/report/evidence_json.h"
 #include "spincat/report/json.h"
@@ -130,7 +131,7 @@ Model trained() {
   settings.prepare.spin_points = 24;
   settings.spin.image_width = 24;
   settings.copies = 0;
-  Model model = train(read_dataset({dir / "d"}), settings, {}).model;
+  ModelData model = train(read_dataset({dir / "d"}), settings).model.data();
   model.categories = {kNasty, "cone"};
   return model;
 }

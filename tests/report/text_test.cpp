@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "spincat/classify/model_data.h"
 #include "spincat/report/text_table.h"
 
 namespace spincat {
@@ -302,7 +303,7 @@ TEST(ObjectText, NamesOnlyTheDefectsThereAre) {
 }
 
 TEST(ModelText, SaysWhatWasLearnt) {
-  Model model;
+  ModelData model;
   model.settings = preset("default");
   model.categories = {"bed", "chair\x07"};
   model.object_counts = {9, 69};

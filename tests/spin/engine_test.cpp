@@ -161,7 +161,7 @@ TEST(SpinImageEngine, GivesTheSameBytesWhenThreadsShareOutTheSurface) {
     std::vector<float> one(few.size() * params.shape().size());
     maker.make(few, 0, one);
     std::vector<float> shared(one.size());
-    for (const std::size_t threads : {2, 3, 50}) {
+    for (const int threads : {2, 3, 50}) {
       maker.make(few, 0, shared, threads);
       EXPECT_EQ(shared, one) << threads;
     }

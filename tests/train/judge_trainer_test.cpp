@@ -11,10 +11,13 @@
 
 #include "parallel/thread_ranks.h"
 #include "spincat/error.h"
+#include "spincat/evaluate/evaluation_data.h"
+#include "spincat/evaluate/tested_objects.h"
 #include "spincat/evaluate/trial.h"
 #include "spincat/geometry/random.h"
 #include "spincat/parallel/task_server.h"
 #include "spincat/rank_work.h"
+#include "spincat/train/feature_table.h"
 #include "spincat/train/train_tasks.h"
 #include "support/temp_dir.h"
 #include "support/tiny_dataset.h"

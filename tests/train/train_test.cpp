@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "spincat/classify/classify.h"
+#include "spincat/classify/model_data.h"
 #include "spincat/dataset/dataset.h"
 #include "spincat/evaluate/evaluate.h"
 #include "spincat/files/file.h"
@@ -156,9 +157,9 @@ TEST_P(Preset, TrainsTheSameBytesOnAnyNumberOfThreads) {
   const TrainResult three = train(shapes(), small_settings(GetParam()), {.threads = 3});
   EXPECT_EQ(model_bytes(one.model), model_bytes(three.model));
   EXPECT_TRUE(one.skipped.empty());
-  EXPECT_EQ(one.model.categories, (std::vector<std::string>{"ball", "box", "cone", "spindle"}));
-  EXPECT_EQ(one.model.object_counts, std::vector<std::uint32_t>(4, kShapesEach));
-  EXPECT_EQ(one.model.judges.size(), 6U);
+  EXPECT_EQ(one.model.categories(), (std::vector<std::string>{"ball", "box", "cone", "spindle"}));
+  EXPECT_EQ(one.model.object_counts(), std::vector<std::uint32_t>(4, kShapesEach));
+  EXPECT_EQ(one.model.judge_count(), 6U);
 }
 
 TEST_P(Preset, EvaluatesTheSameOnAnyNumberOfThreads) {
@@ -182,9 +183,9 @@ TEST(Train, NamesHeldOutShapes) {
   const TempDir dir;
   for (std::uint32_t c = 0; c < 4; ++c) {
     for (int k = kShapesEach; k < kShapesEach + 3; ++k) {
-      const auto file = dir.write("held-out.off", test::off_text(shape_of(model.categories[c], k)));
+      const auto file = dir.write("held-out.off", test::off_text(shape_of(model.categories()[c], k)));
       const Classification found = classify_file(model, file);
-      EXPECT_EQ(found.ballot.winner, c) << model.categories[c] << k;
+      EXPECT_EQ(found.ballot.winner, c) << model.categories()[c] << k;
       EXPECT_EQ(found.ballot.count[c], 3U);
       EXPECT_GT(found.confidence, 0.5);
       EXPECT_LT(found.confidence, 1.0);
@@ -528,7 +529,7 @@ TEST(Evaluate, OptionsOutOfRangeAreRefused) {
 }
 
 TEST(Classify, AnObjectThatDoesNotFitIsRefusedWithItsFile) {
-  Model model = train(shapes(), small_settings(), {}).model;
+  ModelData model = train(shapes(), small_settings()).model.data();
   const TempDir dir;
   const auto same = dir.write("same.off", "OFF 2 0 0\n1 1 1\n1 1 1\n");
   EXPECT_EQ(input_error([&] { classify_file(model, same); }), same.string() + ": all its points are at one place");

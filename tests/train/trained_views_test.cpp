@@ -6,6 +6,7 @@
 
 #include "spincat/camera/render/views.h"
 #include "spincat/classify/classify.h"
+#include "spincat/classify/model_data.h"
 #include "spincat/dataset/dataset.h"
 #include "spincat/describe/kinds.h"
 #include "spincat/evaluate/evaluate.h"
@@ -96,13 +97,13 @@ TEST(DescribeViews, FollowTheModelsOwnUpAxis) {
 
 TEST_F(Views, TrainedJudgesNameNewViews) {
   const Model model = train(shapes(), view_settings(4), {.threads = 2}).model;
-  EXPECT_EQ(model.kinds.meshes, 12U);
-  EXPECT_EQ(model.kinds.clouds, 0U);
-  EXPECT_EQ(model.familiarity.labels.size(), 48U);
+  EXPECT_EQ(model.meshes(), 12U);
+  EXPECT_EQ(model.clouds(), 0U);
+  EXPECT_EQ(model.data().familiarity.labels.size(), 48U);
   int right = 0;
   for (std::uint32_t category = 0; category < 3; ++category) {
     for (int k = 0; k < 4; ++k) {
-      const PointCloud view = view_of(test::tiny_shape(model.categories[category], 2), {}, 100 + k);
+      const PointCloud view = view_of(test::tiny_shape(model.categories()[category], 2), {}, 100 + k);
       const Classification named = classify(model, view);
       EXPECT_EQ(named.kind_mismatch, "");
       right += named.ballot.winner == category ? 1 : 0;

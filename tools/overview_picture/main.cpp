@@ -47,7 +47,7 @@ std::string with_commas(std::size_t number) {
 Road travel(const spincat::Model& model, const fs::path& file) {
   const spincat::Object object = spincat::read_object(file);
   const spincat::ObjectFacts facts = spincat::facts_of(object);
-  const spincat::Settings& settings = model.settings;
+  const spincat::Settings& settings = model.settings();
   Road road;
   road.caption =
       fmt::format("{}, {} {}", file.filename().string(), with_commas(facts.is_mesh ? facts.triangles : facts.points),
@@ -90,13 +90,13 @@ void draw_road(Svg& svg, const spincat::Model& model, const Road& road, double a
                     kColumns[1] + static_cast<double>(i) * (kImage + 14.0), top + (kRow - kImage) / 2.0, kImage, i);
   }
   const spincat::Classification& answer = road.classification;
-  draw_votes(svg, answer.ballot, model.categories, {kColumns[2], top + 10.0, 210.0, kRow - 20.0});
-  draw_name(svg, model.categories[answer.ballot.winner], answer.confidence,
+  draw_votes(svg, answer.ballot, model.categories(), {kColumns[2], top + 10.0, 210.0, kRow - 20.0});
+  draw_name(svg, model.categories()[answer.ballot.winner], answer.confidence,
             {kColumns[3], top, kWidth - 40.0 - kColumns[3], kRow});
 }
 
 void draw_header(Svg& svg, const spincat::Model& model, const Road& example) {
-  const std::size_t judges = model.categories.size() * (model.categories.size() - 1) / 2;
+  const std::size_t judges = model.categories().size() * (model.categories().size() - 1) / 2;
   const std::string notes[] = {
       fmt::format("seen from outside: {} points", with_commas(example.prepared.surface.size())),
       fmt::format("{} per object, three of them shown", example.images.count()),

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "spincat/classify/model_data.h"
 #include "spincat/describe/stopwatch.h"
 #include "spincat/describe/training_copies.h"
 #include "spincat/error.h"
@@ -10,7 +11,8 @@
 
 namespace spincat {
 
-Classification classify(const Model& model, const Object& object, const EncodePrepared& elsewhere) {
+Classification classify(const Model& by, const Object& object, const EncodePrepared& elsewhere) {
+  const ModelData& model = by.data();
   Classification result;
   result.kind_mismatch = kind_mismatch(kind_of(object), model.kinds, model.settings.trained_for);
   const std::optional<Object> shown = shown_instead(object, model.settings);

@@ -75,9 +75,9 @@ void classify_files(const Model& model, std::span<const std::filesystem::path> f
                     const std::function<void(std::size_t i, const Answer& answer)>& deliver) {
   const FarmExecution run(execution);
   const TaskFarm::Tick tick = run.ticking("naming objects", files.size());
-  if (shares_out_points(model.settings, run.split)) {
+  if (shares_out_points(model.settings(), run.split)) {
     for (std::size_t i = 0; i < files.size(); ++i) {
-      const EncodePrepared elsewhere = encode_on(*run.farm, model.settings, run.split, [&](std::size_t) { tick(i); });
+      const EncodePrepared elsewhere = encode_on(*run.farm, model.settings(), run.split, [&](std::size_t) { tick(i); });
       deliver(i, answer_for(model, files[i], run.limits, elsewhere));
     }
     tick(files.size());
@@ -85,17 +85,17 @@ void classify_files(const Model& model, std::span<const std::filesystem::path> f
   }
   Job tasks;
   tasks.kind = kClassifyTasks;
-  tasks.stays_here = model.file.empty();
+  tasks.stays_here = model.file().empty();
   tasks.context = [&](Packer& packer) {
     pack_limits(packer, run.limits);
-    packer.add_rest(model.file.string());
+    packer.add_rest(model.file().string());
   };
   tasks.work = [&](std::string_view file) { return pack(answer_for(model, std::filesystem::path(file), run.limits)); };
   tasks.is_worth_keeping = has_no_problem;
   tasks.tasks = files.size();
   tasks.task = [&](std::size_t i) { return files[i].string(); };
   tasks.deliver = [&](std::size_t i, const std::string& result) {
-    deliver(i, unpack_answer(result, model.categories.size()));
+    deliver(i, unpack_answer(result, model.categories().size()));
   };
   run.farm->run(tasks, tick);
 }

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "spincat/classify/model_data.h"
 #include "spincat/describe/training_copies.h"
 #include "spincat/encode/block_sums.h"
 #include "spincat/encode/encoding.h"
@@ -148,13 +149,13 @@ void leave_out(const PairJudge& judge, const std::vector<float>& whole, EncodedP
 }  // namespace
 
 Evidence explain(const Model& model, const Object& object, const Ballot& ballot) {
-  const PairJudge judge(model.judges, ballot);
+  const PairJudge judge(model.data().judges, ballot);
   Evidence result{EvidenceKind::shares, ballot.winner, ballot.runner_up, judge.margin_in_ballot(), {}};
-  const std::unique_ptr<Encoding> encoding = make_encoding(model.settings.encoding);
-  const std::optional<Object> shown = shown_instead(object, model.settings);
+  const std::unique_ptr<Encoding> encoding = make_encoding(model.settings().encoding);
+  const std::optional<Object> shown = shown_instead(object, model.settings());
   std::vector<EncodedPart> parts;
   std::vector<float> whole(model.feature_length(), 0.0F);
-  for (PreparedPart& prepared : prepare_parts(shown ? *shown : object, model.settings)) {
+  for (PreparedPart& prepared : prepare_parts(shown ? *shown : object, model.settings())) {
     const EncodedPart& part = parts.emplace_back(encoded(std::move(prepared), *encoding));
     const std::span<float> place = part.place(std::span<float>(whole));
     std::ranges::transform(place, part.values, place.begin(),

@@ -4,13 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "spincat/describe/kinds.h"
-#include "spincat/judge/calibration.h"
-#include "spincat/judge/familiarity.h"
-#include "spincat/judge/judge_list.h"
 #include "spincat/settings/settings.h"
 
 namespace spincat {
@@ -20,23 +17,33 @@ namespace spincat {
 inline constexpr std::uint32_t kModelVersion = 2;
 inline constexpr std::uint32_t kOldestModelVersion = 2;
 
-struct Model {
-  Settings settings;
-  std::vector<std::string> categories;  // n, in the order of the judges
-  JudgeList judges;
-  Calibration calibration;
-  Familiarity familiarity;
-  std::string dataset;                       // what it was trained on, as the user named it
-  std::vector<std::uint32_t> object_counts;  // n: training objects of each category, copies not counted
-  KindCounts kinds;                          // of the training objects
-  std::string made_by;                       // "spincat 0.1.0"
-  std::filesystem::path file;                // it was read from; empty for one that was trained here
+struct ModelData;  // model_data.h
 
-  std::size_t feature_length() const { return judges.feature_length(); }
+// Made by train() and read_model(), and never changed. Copies share what they hold; any number of threads may use one.
+class Model {
+ public:
+  Model(ModelData data);  // NOLINT(google-explicit-constructor): the same, and no longer to be changed
+
+  const Settings& settings() const;
+  const std::vector<std::string>& categories() const;       // n, in the order of the judges
+  const std::vector<std::uint32_t>& object_counts() const;  // n: training objects of each category, copies not counted
+  std::uint32_t meshes() const;                             // of the training objects
+  std::uint32_t clouds() const;
+  const std::string& dataset() const;         // what it was trained on, as the user named it
+  const std::string& made_by() const;         // "spincat 0.1.0"
+  const std::filesystem::path& file() const;  // it was read from; empty for one that was trained here
+  std::size_t feature_length() const;         // how many features an object gives
+  std::size_t judge_count() const;            // n (n - 1) / 2
+
+  // For the library itself.
+  const ModelData& data() const { return *data_; }
+
+ private:
+  std::shared_ptr<const ModelData> data_;
 };
 
 // Writes the model file: self-describing, with a version and a checksum; beside the target first, then renamed. The
-// same model gives the same bytes. Throws as write_file_atomically does.
+// same model gives the same bytes. Throws RunError when it cannot be written.
 void write_model(const std::filesystem::path& file, const Model& model);
 
 // Reads a model file. Everything in it is checked before it is used: names, counts, ranges, finite numbers.

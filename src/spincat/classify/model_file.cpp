@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "spincat/classify/model.h"
+#include "spincat/classify/model_data.h"
 #include "spincat/encode/encoding.h"
 #include "spincat/error.h"
 #include "spincat/files/file.h"
@@ -229,8 +229,8 @@ Familiarity familiarity_from_json(const Json& json, std::size_t categories, std:
   return f;
 }
 
-Model model_from_json(const Json& json) {
-  Model model;
+ModelData model_from_json(const Json& json) {
+  ModelData model;
   model.settings = settings_from_json(member(json, "settings"));
   model.categories = value<std::vector<std::string>>(json, "categories");
   const std::size_t n = model.categories.size();
@@ -260,7 +260,8 @@ Model model_from_json(const Json& json) {
 
 }  // namespace
 
-void write_model(const std::filesystem::path& file, const Model& model) {
+void write_model(const std::filesystem::path& file, const Model& written) {
+  const ModelData& model = written.data();
   RecordBlobs blobs;
   const Json json = {{"settings", settings_to_json(model.settings)},
                      {"categories", model.categories},
@@ -279,10 +280,10 @@ void write_model(const std::filesystem::path& file, const Model& model) {
 
 Model read_model(const std::filesystem::path& file) {
   const std::string bytes = read_file(file);
-  Model model = naming_file(
+  ModelData model = naming_file(
       file, [&] { return model_from_json(unpack_record(bytes, "model", kModelVersion, kOldestModelVersion)); });
   model.file = file;
-  return model;
+  return Model(std::move(model));
 }
 
 bool is_model_file(const std::filesystem::path& file) {

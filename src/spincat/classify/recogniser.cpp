@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <utility>
 
+#include "spincat/camera/segment/segment.h"
 #include "spincat/camera/segment/segment_cloud.h"
+#include "spincat/camera/segment/table.h"
+#include "spincat/camera/segment/tracks.h"
 #include "spincat/classify/classify.h"
 #include "spincat/describe/stopwatch.h"
 #include "spincat/error.h"
@@ -65,21 +69,51 @@ void RecogniserSettings::validate() const {
   }
 }
 
-Recogniser::Recogniser(const Model& model, const RecogniserSettings& settings, int threads)
-    : model_(model), settings_(settings), threads_(threads), tracks_(settings.tracks) {
+// What a recogniser knows from frame to frame.
+class Recogniser::Sight {
+ public:
+  Sight(Model model, const RecogniserSettings& settings, int threads)
+      : model_(std::move(model)), settings_(settings), threads_(threads), tracks_(settings.tracks) {}
+
+  SeenFrame look_at(const DepthImage& image, const Intrinsics& intrinsics);
+
+ private:
+  // What is kept of an object.
+  struct Memory {
+    std::vector<Ballot> ballots;  // of its last frames
+    std::vector<double> confidences;
+  };
+
+  void find_objects(const DepthImage& image, const Intrinsics& intrinsics, SeenFrame& frame);
+  void name_object(const DepthImage& image, const Intrinsics& intrinsics, const SeenFrame& frame,
+                   SeenObject& object) const;
+  void sum_up(SeenObject& object);
+
+  Model model_;
+  RecogniserSettings settings_;
+  int threads_;
+  std::optional<SupportPlane> table_;
+  Tracks tracks_;
+  std::map<std::uint64_t, Memory> memory_;  // by track
+};
+
+Recogniser::Recogniser(const Model& model, const RecogniserSettings& settings, int threads) {
   settings.validate();
+  sight_ = std::make_unique<Sight>(model, settings, threads);
 }
+
+Recogniser::~Recogniser() = default;
 
 SeenFrame Recogniser::look(const DepthImage& image, const Intrinsics& intrinsics) {
   if (std::ranges::all_of(image.depth, is_sound)) {
-    return look_at(image, intrinsics);
+    return sight_->look_at(image, intrinsics);
   }
   DepthImage sound = image;
   std::ranges::replace_if(sound.depth, std::not_fn(is_sound), 0.0F);
-  return look_at(sound, intrinsics);
+  return sight_->look_at(sound, intrinsics);
 }
 
-SeenFrame Recogniser::look_at(const DepthImage& image, const Intrinsics& intrinsics) {
+SeenFrame Recogniser::Sight::look_at(const DepthImage& image, const Intrinsics& intrinsics) {
   SeenFrame frame;
   Stopwatch watch;
   const Readings readings = readings_of(image);
@@ -103,7 +137,7 @@ SeenFrame Recogniser::look_at(const DepthImage& image, const Intrinsics& intrins
   return frame;
 }
 
-void Recogniser::find_objects(const DepthImage& image, const Intrinsics& intrinsics, SeenFrame& frame) {
+void Recogniser::Sight::find_objects(const DepthImage& image, const Intrinsics& intrinsics, SeenFrame& frame) {
   const std::vector<Segment>& found = frame.segmentation.objects;
   std::vector<Eigen::Vector3f> centres;
   for (const Segment& segment : found) {
@@ -129,8 +163,8 @@ void Recogniser::find_objects(const DepthImage& image, const Intrinsics& intrins
   }
 }
 
-void Recogniser::name_object(const DepthImage& image, const Intrinsics& intrinsics, const SeenFrame& frame,
-                             SeenObject& object) const {
+void Recogniser::Sight::name_object(const DepthImage& image, const Intrinsics& intrinsics, const SeenFrame& frame,
+                                    SeenObject& object) const {
   object.distance = object.segment.centre.norm();
   try {
     const PointCloud cloud = segment_cloud(image, intrinsics, *frame.table, frame.segmentation, object.segment);
@@ -142,7 +176,7 @@ void Recogniser::name_object(const DepthImage& image, const Intrinsics& intrinsi
   }
 }
 
-void Recogniser::sum_up(SeenObject& object) {
+void Recogniser::Sight::sum_up(SeenObject& object) {
   Memory& memory = memory_[object.id];
   const auto most = static_cast<std::size_t>(settings_.summed_frames);
   if (memory.ballots.size() == most) {

@@ -3,15 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "spincat/camera/segment/segment.h"
-#include "spincat/camera/segment/table.h"
-#include "spincat/camera/segment/tracks.h"
-#include "spincat/camera/source/depth_image.h"
+#include "spincat/camera/segment/scene.h"
+#include "spincat/camera/source/frame_source.h"
 #include "spincat/classify/model.h"
 #include "spincat/judge/ballot.h"
 
@@ -69,35 +67,20 @@ struct SeenFrame {
 };
 
 // Looks at one frame after the other. What it says depends on the frames so far, and neither on the number of threads
-// nor on the clock. The model must outlive it.
+// nor on the clock.
 class Recogniser {
  public:
   // Throws InputError when the settings are out of range.
   Recogniser(const Model& model, const RecogniserSettings& settings, int threads);
+  ~Recogniser();
 
   // Objects of a frame are named on several threads. Memory does not grow with the number of frames. Depths that are
   // negative, no numbers or more than a million metres count as not read.
   SeenFrame look(const DepthImage& image, const Intrinsics& intrinsics);
 
  private:
-  // What is kept of an object from frame to frame.
-  struct Memory {
-    std::vector<Ballot> ballots;  // of its last frames
-    std::vector<double> confidences;
-  };
-
-  SeenFrame look_at(const DepthImage& image, const Intrinsics& intrinsics);
-  void find_objects(const DepthImage& image, const Intrinsics& intrinsics, SeenFrame& frame);
-  void name_object(const DepthImage& image, const Intrinsics& intrinsics, const SeenFrame& frame,
-                   SeenObject& object) const;
-  void sum_up(SeenObject& object);
-
-  const Model& model_;
-  RecogniserSettings settings_;
-  int threads_;
-  std::optional<SupportPlane> table_;
-  Tracks tracks_;
-  std::map<std::uint64_t, Memory> memory_;  // by track
+  class Sight;
+  std::unique_ptr<Sight> sight_;
 };
 
 }  // namespace spincat

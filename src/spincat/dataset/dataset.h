@@ -32,6 +32,12 @@ struct Dataset {
   ReadLimits limits = {};               // while reading its objects
 };
 
+// A category that takes no part in an evaluation, and why.
+struct LeftOutCategory {
+  std::string name;
+  std::string reason;  // as "has 3 objects"
+};
+
 struct DatasetOptions {
   // Where the models are that a CSV or .cla names by relative paths or numbers. Empty: beside the CSV file; for a .cla
   // file it is found as ../db or ./db beside it where that exists (the layout of the Princeton Shape Benchmark).
@@ -66,5 +72,9 @@ Dataset read_dataset(const std::vector<std::filesystem::path>& sources, const Da
 // The part of a data set with an official split that judges may learn from: the objects of the split "train" and those
 // without one, and the categories that have such objects. The whole data set when nothing is marked "train".
 Dataset training_part(const Dataset& dataset);
+
+// The part of a data set that its own split marks "test"; training_part is the other. Throws InputError
+// when nothing is marked "test", or all is.
+Dataset testing_part(const Dataset& dataset);
 
 }  // namespace spincat

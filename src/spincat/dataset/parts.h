@@ -11,18 +11,8 @@
 
 namespace spincat {
 
-// A category that takes no part, and why.
-struct LeftOutCategory {
-  std::string name;
-  std::string reason;  // as "has 3 objects"
-};
-
 // Without the categories of fewer than `fewest` objects, which are added to `left_out`. The same when none is.
 Dataset with_enough_objects(const Dataset& dataset, int fewest, std::vector<LeftOutCategory>& left_out);
-
-// The part of a data set that its own split marks "test"; training_part (dataset.h) is the other. Throws InputError
-// when nothing is marked "test", or all is.
-Dataset testing_part(const Dataset& dataset);
 
 // Both data sets with only the categories that they share by name, in the same order; the others are added to
 // `left_out`, with the data set they are missing from. Throws InputError when they share fewer than two, or when a file

@@ -8,7 +8,6 @@
 
 #include "spincat/encode/feature_vector.h"
 #include "spincat/geometry/object.h"
-#include "spincat/geometry/up_axis.h"
 #include "spincat/prepare/prepare.h"
 #include "spincat/settings/settings.h"
 #include "spincat/spin/params.h"

@@ -5,8 +5,10 @@
 #include <numeric>
 #include <utility>
 
+#include "spincat/dataset/parts.h"
 #include "spincat/dataset/splits.h"
 #include "spincat/describe/stopwatch.h"
+#include "spincat/evaluate/evaluation_data.h"
 #include "spincat/evaluate/roc.h"
 #include "spincat/evaluate/trial.h"
 #include "spincat/parallel/farm_execution.h"

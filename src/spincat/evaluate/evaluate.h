@@ -1,7 +1,6 @@
 // Measuring: how often the judges are right on objects that they were not trained on.
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -9,13 +8,10 @@
 #include <vector>
 
 #include "spincat/dataset/dataset.h"
-#include "spincat/dataset/parts.h"
 #include "spincat/describe/describe.h"
 #include "spincat/evaluate/rates.h"
-#include "spincat/evaluate/tested_objects.h"
 #include "spincat/execution.h"
 #include "spincat/settings/settings.h"
-#include "spincat/train/feature_table.h"
 
 namespace spincat {
 
@@ -24,6 +20,23 @@ enum class Protocol {
   splits,         // repeated stratified random splits of one data set
   leave_one_out,  // each object by judges that were trained on all others
   across,         // all objects of another data set (or of the data set's own test part), once
+};
+
+// How objects are shown to the judges.
+enum class TestForm {
+  as_is,
+  turned,  // turned at random, evenly over all rotations
+  cloud,   // points drawn evenly from the surface, without normals, with noise; clouds stay clouds and only get noise
+};
+
+struct TestOptions {
+  TestForm form = TestForm::as_is;
+  double noise = 0.01;      // of clouds: standard deviation along each axis, in diameters of the object, 0 to 1; the
+                            // diameter is twice the distance of the furthest point from the centre of the bounding box
+  int cloud_points = 2048;  // of clouds, 1 to 10,000,000
+
+  // Throws InputError naming the option, its value and the allowed range.
+  void validate() const;
 };
 
 struct EvaluateOptions {
@@ -100,39 +113,18 @@ struct Evaluation {
   double wall_seconds = 0.0;  // of everything
 };
 
-// What an evaluation needs of its objects, described once. The judges' settings play no part in it, so that one of
-// these serves all of them.
-struct EvaluationData {
-  std::string dataset;
-  std::string test_dataset;
-  FeatureTable table;               // to learn from, and to test unless there is `tested`
-  std::optional<TestTable> tested;  // the objects of another data set, or those of `table` in another form
-  bool across = false;              // `tested` is another data set
-  TestTable unknown_objects;
-  std::vector<LeftOutCategory> left_out;
-  double wall_seconds = 0.0;
-};
-
-// Describes every object of the data set once, and again in the form it is tested in where that is another.
+// Describes every object of the data set once, and again in the form it is tested in where that is another. Then
+// trains the judges of each split on the training objects and their copies, and lets them vote on the test objects.
+// The result is the same for the same data, settings and options, whatever the execution. A category with a single
+// object is never tested by splits; leaving that object out tests the judges of the other categories on it. Intervals:
+// over splits as rate_over_splits, otherwise as the pooled rates (rates.h).
 // Throws InputError when options or settings are out of range, or fewer than two categories can be read.
-EvaluationData describe_for_evaluation(const Dataset& dataset, const Settings& settings, const EvaluateOptions& options,
-                                       const Execution& execution = {});
-
-// The same for judges that learn from one data set and are tested on another. Categories are matched by their names;
-// those missing on either side are left out. Throws as the above and common_categories (dataset/parts.h) do.
-EvaluationData describe_across(const Dataset& train, const Dataset& test, const Settings& settings,
-                               const EvaluateOptions& options, const Execution& execution = {});
-
-// For each split trains the judges on the training objects and their copies, and lets them vote on the test objects.
-// The result is the same for the same data, settings and options, whatever the execution. A category with a
-// single object is never tested by splits; leaving that object out tests the judges of the other categories on it.
-// Intervals: over splits as rate_over_splits, otherwise as the pooled rates (rates.h).
-Evaluation judge_evaluation(const EvaluationData& data, const Settings& settings, const EvaluateOptions& options,
-                            const Execution& execution = {});
-
-// Both together.
 Evaluation evaluate(const Dataset& dataset, const Settings& settings, const EvaluateOptions& options,
                     const Execution& execution = {});
+
+// The same for judges that learn from one data set and are tested on another. Categories are matched by their names;
+// those missing on either side are left out. Throws InputError besides when they share fewer than two, or when a file
+// is in both.
 Evaluation evaluate_across(const Dataset& train, const Dataset& test, const Settings& settings,
                            const EvaluateOptions& options, const Execution& execution = {});
 

@@ -5,10 +5,11 @@
 #include <cstddef>
 #include <utility>
 
+#include "spincat/dataset/parts.h"
 #include "spincat/dataset/splits.h"
 #include "spincat/describe/stopwatch.h"
 #include "spincat/error.h"
-#include "spincat/evaluate/evaluate.h"
+#include "spincat/evaluate/evaluation_data.h"
 #include "spincat/train/worth_broadcasting.h"
 
 namespace spincat {

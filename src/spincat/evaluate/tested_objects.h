@@ -10,6 +10,7 @@
 #include "spincat/dataset/dataset.h"
 #include "spincat/describe/describe.h"
 #include "spincat/describe/kinds.h"
+#include "spincat/evaluate/evaluate.h"
 #include "spincat/execution.h"
 #include "spincat/geometry/object.h"
 #include "spincat/judge/gram.h"
@@ -20,23 +21,6 @@ namespace spincat {
 
 // The name of this kind of work, as ranks tell each other.
 inline constexpr const char* kTestedTasks = "feature vectors of test objects";
-
-// How objects are shown to the judges.
-enum class TestForm {
-  as_is,
-  turned,  // turned at random, evenly over all rotations
-  cloud,   // points drawn evenly from the surface, without normals, with noise; clouds stay clouds and only get noise
-};
-
-struct TestOptions {
-  TestForm form = TestForm::as_is;
-  double noise = 0.01;      // of clouds: standard deviation along each axis, in diameters of the object, 0 to 1; the
-                            // diameter is twice the distance of the furthest point from the centre of the bounding box
-  int cloud_points = 2048;  // of clouds, 1 to 10,000,000
-
-  // Throws InputError naming the option, its value and the allowed range.
-  void validate() const;
-};
 
 // The object in the form it is tested in. Deterministic: the same for the same object, options and seed. Throws
 // InputError when a mesh without area is to become a cloud.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "spincat/dataset/splits.h"
-#include "spincat/evaluate/evaluate.h"
+#include "spincat/evaluate/evaluation_data.h"
 #include "spincat/judge/kernel.h"
 #include "spincat/parallel/task.h"
 #include "spincat/train/judge_trainer.h"

@@ -1,28 +1,14 @@
-// Memory for vectorised loops: starts on a cache line.
+// Aligned memory (oriented_points.h) that is written before it is read.
 #pragma once
 
-#include <cstddef>
 #include <new>
 #include <vector>
 
+#include "spincat/geometry/oriented_points.h"
+
 namespace spincat {
 
-inline constexpr std::size_t kAlignment = 64;  // bytes: a cache line, and the widest vector register in use
-
-template <class T>
-struct AlignedAllocator {
-  using value_type = T;
-  AlignedAllocator() = default;
-  template <class U>
-  AlignedAllocator(const AlignedAllocator<U>&) {}  // NOLINT(google-explicit-constructor): allocators convert
-  T* allocate(std::size_t n) { return static_cast<T*>(::operator new (n * sizeof(T), std::align_val_t{kAlignment})); }
-  void deallocate(T* p, std::size_t) { ::operator delete (p, std::align_val_t{kAlignment}); }
-  friend bool operator==(const AlignedAllocator&, const AlignedAllocator&) { return true; }
-};
-
-using AlignedFloats = std::vector<float, AlignedAllocator<float>>;
-
-// The same, but a new array's values are undefined: for memory that is written before it is read.
+// As AlignedFloats, but a new array's values are undefined: for memory that is written before it is read.
 template <class T>
 struct UninitialisedAllocator : AlignedAllocator<T> {
   template <class U>

@@ -13,6 +13,9 @@ namespace spincat {
 // Positions from files are doubles: coordinates of 1e30 or far from the origin keep their shape until they are scaled.
 using Vec3 = Eigen::Vector3d;
 
+// The axis of a file that points up, where it is known.
+enum class UpAxis { none, x, y, z };
+
 // Three indices into Mesh::vertices. The front of the face is where the corners run counter-clockwise.
 using Triangle = std::array<std::uint32_t, 3>;
 

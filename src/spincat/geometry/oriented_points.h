@@ -3,11 +3,27 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <new>
 #include <span>
-
-#include "spincat/geometry/aligned.h"
+#include <vector>
 
 namespace spincat {
+
+// Memory for vectorised loops.
+inline constexpr std::size_t kAlignment = 64;  // bytes: a cache line, and the widest vector register in use
+
+template <class T>
+struct AlignedAllocator {
+  using value_type = T;
+  AlignedAllocator() = default;
+  template <class U>
+  AlignedAllocator(const AlignedAllocator<U>&) {}  // NOLINT(google-explicit-constructor): allocators convert
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new (n * sizeof(T), std::align_val_t{kAlignment})); }
+  void deallocate(T* p, std::size_t) { ::operator delete (p, std::align_val_t{kAlignment}); }
+  friend bool operator==(const AlignedAllocator&, const AlignedAllocator&) { return true; }
+};
+
+using AlignedFloats = std::vector<float, AlignedAllocator<float>>;
 
 // N points with unit normals as six separate float arrays of length N: a structure of arrays. Every array starts on a
 // cache line and is padded with zeros to a multiple of 16 floats, so that a kernel may read (not use) past its end.

@@ -11,13 +11,13 @@ namespace {
 Json model_facts(const std::string& file, const Model& model) {
   return {{"file", file},
           {"kind", "model"},
-          {"made_by", model.made_by},
-          {"dataset", model.dataset},
-          {"categories", model.categories},
-          {"object_counts", by_category(model.categories, model.object_counts)},
+          {"made_by", model.made_by()},
+          {"dataset", model.dataset()},
+          {"categories", model.categories()},
+          {"object_counts", by_category(model.categories(), model.object_counts())},
           {"features", model.feature_length()},
-          {"judges", model.judges.size()},
-          {"settings", settings_to_json(model.settings)}};
+          {"judges", model.judge_count()},
+          {"settings", settings_to_json(model.settings())}};
 }
 
 }  // namespace
@@ -27,19 +27,19 @@ std::string classification_json(const std::string& file, const Classification& c
   const Ballot& ballot = classification.ballot;
   const StageSeconds& s = classification.seconds;
   Json json = {{"file", file},
-               {"category", rejected ? "unknown" : model.categories[ballot.winner]},
+               {"category", rejected ? "unknown" : model.categories()[ballot.winner]},
                {"confidence", classification.confidence},
-               {"votes", by_category(model.categories, ballot.count)},
+               {"votes", by_category(model.categories(), ballot.count)},
                {"milliseconds", 1e3 * (s.read + s.prepare + s.spin + s.encode + s.judge)}};
   if (rejected) {
-    json["best_guess"] = model.categories[ballot.winner];
+    json["best_guess"] = model.categories()[ballot.winner];
   }
   if (every_judge) {
     Json judges = Json::array();
     for (const Vote& vote : ballot.votes) {
-      judges.push_back({{"a", model.categories[vote.category_a]},
-                        {"b", model.categories[vote.category_b]},
-                        {"vote", model.categories[vote.choice()]},
+      judges.push_back({{"a", model.categories()[vote.category_a]},
+                        {"b", model.categories()[vote.category_b]},
+                        {"vote", model.categories()[vote.choice()]},
                         {"margin", vote.margin}});
     }
     json["judges"] = judges;

@@ -89,20 +89,21 @@ constexpr std::pair<SettingStage, std::string_view> kStages[] = {{SettingStage::
 
 std::string model_text(const Model& model, std::size_t width) {
   constexpr std::size_t kKey = 13;
-  const Settings& s = model.settings;
+  const Settings& s = model.settings();
   std::string text;
   const auto add = [&](std::string_view key, const std::string& value) {
     const std::string fact = fmt::format("{:<{}}", key, kKey) + value;
     text += (width > 0 ? wrapped(fact, width, kKey) : fact) + "\n";
   };
-  add("made by", printable(model.made_by));
-  add("trained on", printable(model.dataset));
+  add("made by", printable(model.made_by()));
+  add("trained on", printable(model.dataset()));
   std::string categories;
-  for (std::size_t c = 0; c < model.categories.size(); ++c) {
-    categories += fmt::format("{}{} ({})", c > 0 ? ", " : "", printable(model.categories[c]), model.object_counts[c]);
+  for (std::size_t c = 0; c < model.categories().size(); ++c) {
+    categories +=
+        fmt::format("{}{} ({})", c > 0 ? ", " : "", printable(model.categories()[c]), model.object_counts()[c]);
   }
   add("categories", categories);
-  add("judges", fmt::format("{} of {} features", model.judges.size(), model.feature_length()));
+  add("judges", fmt::format("{} of {} features", model.judge_count(), model.feature_length()));
   add("preset", s.preset);
   for (const auto& [stage, name] : kStages) {
     add(name, stage_text(s, stage));

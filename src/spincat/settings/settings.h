@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "spincat/geometry/up_axis.h"
+#include "spincat/geometry/object.h"
 #include "spincat/judge/settings.h"
 #include "spincat/prepare/prepare.h"
 #include "spincat/range.h"

@@ -14,7 +14,7 @@
 
 namespace spincat {
 
-// Calls make(step, worker) for every step in [0, steps) on `threads` threads (worker is 0 .. threads - 1, worker 0 on
+// Calls make(step, worker) for every step in [0, steps) on `workers` threads (worker is 0 .. workers - 1, worker 0 on
 // the calling thread) and deliver(step, result) for each result on the calling thread, in the order of the steps. At
 // most two results a thread are waiting at any time. The first exception of either function stops all work and is
 // rethrown here when all threads have ended.
@@ -24,10 +24,10 @@ class InOrder {
   using Make = std::function<Result(std::size_t step, std::size_t worker)>;
   using Deliver = std::function<void(std::size_t step, Result& result)>;
 
-  InOrder(std::size_t steps, std::size_t threads, Make make, Deliver deliver)
-      : steps_(steps), window_(2 * threads), make_(std::move(make)), deliver_(std::move(deliver)) {
+  InOrder(std::size_t steps, std::size_t workers, Make make, Deliver deliver)
+      : steps_(steps), window_(2 * workers), make_(std::move(make)), deliver_(std::move(deliver)) {
     std::vector<std::jthread> others;
-    for (std::size_t worker = 1; worker < threads; ++worker) {
+    for (std::size_t worker = 1; worker < workers; ++worker) {
       others.emplace_back([this, worker] { guarded([&] { work(worker); }); });
     }
     guarded([&] { work_and_deliver(); });
@@ -108,14 +108,14 @@ class InOrder {
   std::exception_ptr failure_;
 };
 
-// Calls body(step, worker) for every step in [0, steps), on `threads` threads; exceptions as above.
-inline void for_each_step(std::size_t steps, std::size_t threads,
+// Calls body(step, worker) for every step in [0, steps), on `workers` threads; exceptions as above.
+inline void for_each_step(std::size_t steps, std::size_t workers,
                           const std::function<void(std::size_t step, std::size_t worker)>& body) {
   const auto make = [&](std::size_t step, std::size_t worker) {
     body(step, worker);
     return true;
   };
-  InOrder<bool>(steps, std::min(threads, steps), make, [](std::size_t, bool) {});
+  InOrder<bool>(steps, std::min(workers, steps), make, [](std::size_t, bool) {});
 }
 
 }  // namespace spincat

@@ -31,7 +31,7 @@ SpinPoint spin_point(const OrientedPoints& points, std::size_t k) {
 
 class SpinImageMaker::Engine {
  public:
-  Engine(const OrientedPoints& surface, const SpinImageParams& params, std::size_t threads)
+  Engine(const OrientedPoints& surface, const SpinImageParams& params, int threads)
       : shape_(params.shape()),
         kernel_(spin_kernel()),
         support_(params),
@@ -47,13 +47,13 @@ class SpinImageMaker::Engine {
     std::span<float> image;
   };
 
-  void make(std::vector<Wanted> wanted, std::size_t threads) const {
+  void make(std::vector<Wanted> wanted, std::size_t workers) const {
     sort_in_space(wanted);
     constexpr std::size_t kFewImages = 4;  // a thread's, below which the threads share out the surface
-    if (threads > 1 && wanted.size() < kFewImages * threads) {
-      make_sharing_surface(wanted, threads);
+    if (workers > 1 && wanted.size() < kFewImages * workers) {
+      make_sharing_surface(wanted, workers);
     } else {
-      make_sharing_images(wanted, threads);
+      make_sharing_images(wanted, workers);
     }
   }
 
@@ -80,11 +80,11 @@ class SpinImageMaker::Engine {
   }
 
   // Several runs a thread: where the surface is dense, images take longer than elsewhere.
-  void make_sharing_images(std::span<const Wanted> wanted, std::size_t threads) const {
+  void make_sharing_images(std::span<const Wanted> wanted, std::size_t workers) const {
     constexpr std::size_t kRunsOfThread = 2;
-    const std::size_t runs = threads == 1 ? 1 : threads * kRunsOfThread;
-    std::vector<Sums> sums(threads);  // of the images that a thread has under way; zero between runs
-    for_each_step(runs, threads, [&](std::size_t run, std::size_t worker) {
+    const std::size_t runs = workers == 1 ? 1 : workers * kRunsOfThread;
+    std::vector<Sums> sums(workers);  // of the images that a thread has under way; zero between runs
+    for_each_step(runs, workers, [&](std::size_t run, std::size_t worker) {
       const std::size_t begin = run * wanted.size() / runs;
       const std::size_t end = (run + 1) * wanted.size() / runs;
       make_run(wanted.subspan(begin, end - begin), sums[worker]);
@@ -101,10 +101,10 @@ class SpinImageMaker::Engine {
     }
   }
 
-  void make_sharing_surface(std::span<const Wanted> wanted, std::size_t threads) const {
+  void make_sharing_surface(std::span<const Wanted> wanted, std::size_t workers) const {
     while (!wanted.empty()) {
       const auto group = wanted.first(std::min(images_at_once(), wanted.size()));
-      const std::size_t slice = (tiles() + threads - 1) / threads;
+      const std::size_t slice = (tiles() + workers - 1) / workers;
       Sums sums(group.size() * layout_.size, 0);
       const auto make_slice = [&](std::size_t step, std::size_t) {
         Sums part(sums.size(), 0);
@@ -114,7 +114,7 @@ class SpinImageMaker::Engine {
       const auto add = [&](std::size_t, Sums& part) {
         std::transform(part.begin(), part.end(), sums.begin(), sums.begin(), std::plus<>());
       };
-      InOrder<Sums>(threads, threads, make_slice, add);  // NOLINT(bugprone-unused-raii): making it does the work
+      InOrder<Sums>(workers, workers, make_slice, add);  // NOLINT(bugprone-unused-raii): making it does the work
       finish(group, sums);
       wanted = wanted.subspan(group.size());
     }
@@ -193,7 +193,7 @@ class SpinImageMaker::Engine {
   SurfaceGroups surface_;
 };
 
-SpinImageMaker::SpinImageMaker(const OrientedPoints& surface, const SpinImageParams& params, std::size_t threads)
+SpinImageMaker::SpinImageMaker(const OrientedPoints& surface, const SpinImageParams& params, int threads)
     : engine_(std::make_unique<const Engine>(surface, params, threads)) {}
 
 SpinImageMaker::~SpinImageMaker() = default;
@@ -203,23 +203,22 @@ const SpinImageShape& SpinImageMaker::shape() const {
 }
 
 void SpinImageMaker::make(const OrientedPoints& spin_points, std::size_t first, std::span<float> images,
-                          std::size_t threads) const {
+                          int threads) const {
   std::vector<Engine::Wanted> wanted;
   for (std::size_t k = 0; k < images.size() / shape().size(); ++k) {
     wanted.push_back({spin_point(spin_points, first + k), images.subspan(k * shape().size(), shape().size())});
   }
-  engine_->make(std::move(wanted), threads);
+  engine_->make(std::move(wanted), static_cast<std::size_t>(std::max(threads, 1)));
 }
 
-void SpinImageMaker::make(const OrientedPoints& spin_points, std::span<SpinImageBlock> blocks,
-                          std::size_t threads) const {
+void SpinImageMaker::make(const OrientedPoints& spin_points, std::span<SpinImageBlock> blocks, int threads) const {
   std::vector<Engine::Wanted> wanted;
   for (SpinImageBlock& block : blocks) {
     for (std::size_t k = 0; k < block.images.count(); ++k) {
       wanted.push_back({spin_point(spin_points, block.first + k), block.images.image(k)});
     }
   }
-  engine_->make(std::move(wanted), threads);
+  engine_->make(std::move(wanted), static_cast<std::size_t>(std::max(threads, 1)));
 }
 
 }  // namespace spincat

@@ -22,7 +22,7 @@ class SpinImageMaker {
   // Copies the surface and sorts it in space, on `threads` threads: about 10 ms of one for a million points. The
   // environment variable SPINCAT_SIMD forces one of simd_paths(); throws InputError when it names none of them.
   // Precondition: params are valid.
-  SpinImageMaker(const OrientedPoints& surface, const SpinImageParams& params, std::size_t threads = 1);
+  SpinImageMaker(const OrientedPoints& surface, const SpinImageParams& params, int threads = 1);
   ~SpinImageMaker();
 
   const SpinImageShape& shape() const;
@@ -30,11 +30,10 @@ class SpinImageMaker {
   // Writes the images of the spin points first, first + 1, ... to `images`: as many as it has room for (a multiple of
   // shape().size() floats; those spin points must exist). Threads share out the images, or, where these are few, the
   // surface.
-  void make(const OrientedPoints& spin_points, std::size_t first, std::span<float> images,
-            std::size_t threads = 1) const;
+  void make(const OrientedPoints& spin_points, std::size_t first, std::span<float> images, int threads = 1) const;
 
   // The same for a run of blocks, each of which says by its place and size which images it wants.
-  void make(const OrientedPoints& spin_points, std::span<SpinImageBlock> blocks, std::size_t threads = 1) const;
+  void make(const OrientedPoints& spin_points, std::span<SpinImageBlock> blocks, int threads = 1) const;
 
  private:
   class Engine;

@@ -70,7 +70,7 @@ class BlockStore {
 void make_spin_images(const OrientedPoints& surface, const OrientedPoints& spin_points, const SpinImageParams& params,
                       const SpinImageConsumer& consume, int threads) {
   const auto workers = static_cast<std::size_t>(std::max(threads, 1));
-  const SpinImageMaker maker(surface, params, workers);
+  const SpinImageMaker maker(surface, params, threads);
   const std::size_t blocks = (spin_points.size() + kSpinImageBlock - 1) / kSpinImageBlock;
   // With enough blocks every thread makes its own; otherwise all threads work on each.
   const bool share_blocks = blocks >= 4 * workers;
@@ -79,7 +79,7 @@ void make_spin_images(const OrientedPoints& surface, const OrientedPoints& spin_
   const auto make = [&](std::size_t step, std::size_t) {
     const std::size_t first = step * together;
     Blocks made = store.take(first, std::min(together, blocks - first));
-    maker.make(spin_points, made, share_blocks ? 1 : workers);
+    maker.make(spin_points, made, share_blocks ? 1 : threads);
     return made;
   };
   const auto deliver = [&](std::size_t, Blocks& made) {

@@ -5,7 +5,6 @@
 #include <functional>
 #include <span>
 
-#include "spincat/geometry/aligned.h"
 #include "spincat/geometry/oriented_points.h"
 #include "spincat/spin/params.h"
 

@@ -124,7 +124,7 @@ Bounds::Bounds(std::size_t count) : size(count) {
   }
 }
 
-SurfaceGroups::SurfaceGroups(const OrientedPoints& surface, const Support& support, std::size_t threads)
+SurfaceGroups::SurfaceGroups(const OrientedPoints& surface, const Support& support, int threads)
     : group_bounds_(divided_up(surface.size(), kGroupPoints)),
       tile_bounds_(divided_up(group_bounds_.size, kTileGroups)),
       points_(groups() * 6 * kGroupPoints) {
@@ -137,7 +137,8 @@ SurfaceGroups::SurfaceGroups(const OrientedPoints& surface, const Support& suppo
     order = curve_order(surface);
   }
   constexpr std::size_t kTilesOfThread = 4;  // fewer are done before another thread has started
-  const std::size_t workers = std::clamp<std::size_t>(tiles() / kTilesOfThread, 1, threads);
+  const std::size_t workers =
+      std::clamp<std::size_t>(tiles() / kTilesOfThread, 1, static_cast<std::size_t>(std::max(threads, 1)));
   const std::size_t share = divided_up(tiles(), workers);
   for_each_step(workers, workers, [&](std::size_t step, std::size_t) {
     for (std::size_t t = step * share; t < std::min((step + 1) * share, tiles()); ++t) {

@@ -49,7 +49,7 @@ class SurfaceGroups {
  public:
   // Sorts only where a support can leave groups out; where it sees the whole surface, the order does not matter. The
   // same for any number of threads.
-  SurfaceGroups(const OrientedPoints& surface, const Support& support, std::size_t threads);
+  SurfaceGroups(const OrientedPoints& surface, const Support& support, int threads);
 
   std::size_t groups() const { return group_bounds_.size; }
   std::size_t tiles() const { return tile_bounds_.size; }

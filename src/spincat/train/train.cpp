@@ -3,6 +3,7 @@
 #include <numeric>
 #include <utility>
 
+#include "spincat/classify/model_data.h"
 #include "spincat/describe/stopwatch.h"
 #include "spincat/parallel/farm_execution.h"
 #include "spincat/train/feature_table.h"
@@ -23,8 +24,7 @@ TrainResult train(const Dataset& dataset, const Settings& settings, const Execut
   // Train a judge for every pair of categories, and find out how far their votes can be trusted.
   Stopwatch watch;
   JudgeTrainer trainer(table, settings.judge, *run.farm, trainings, run.progress);
-  TrainResult result;
-  Model& model = result.model;
+  ModelData model;
   CalibratedJudges trained = trainer.train_calibrated(objects, settings.seed, run.progress);
   model.judges = std::move(trained.judges);
   model.calibration = trained.calibration;
@@ -37,10 +37,9 @@ TrainResult train(const Dataset& dataset, const Settings& settings, const Execut
   model.dataset = dataset.name;
   model.made_by = "spincat " SPINCAT_VERSION;
   model.object_counts = table.object_counts();
-  result.skipped = table.skipped;
-  result.seconds = table.seconds;
-  result.seconds.judge += watch.lap();
-  return result;
+  StageSeconds seconds = table.seconds;
+  seconds.judge += watch.lap();
+  return {Model(std::move(model)), table.skipped, seconds};
 }
 
 }  // namespace spincat

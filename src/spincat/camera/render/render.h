@@ -1,7 +1,7 @@
 // What a depth camera would see of a mesh.
 #pragma once
 
-#include "spincat/camera/source/depth_image.h"
+#include "spincat/camera/source/frame_source.h"
 #include "spincat/geometry/object.h"
 
 namespace spincat {

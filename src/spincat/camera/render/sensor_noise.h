@@ -1,7 +1,7 @@
 // Rendered pictures that look like a real sensor's.
 #pragma once
 
-#include "spincat/camera/source/depth_image.h"
+#include "spincat/camera/source/frame_source.h"
 #include "spincat/geometry/random.h"
 
 namespace spincat {

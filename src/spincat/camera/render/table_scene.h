@@ -9,10 +9,9 @@
 
 #include "spincat/camera/render/viewpoint.h"
 #include "spincat/camera/segment/table.h"
-#include "spincat/camera/source/depth_image.h"
+#include "spincat/camera/source/frame_source.h"
 #include "spincat/geometry/object.h"
 #include "spincat/geometry/random.h"
-#include "spincat/geometry/up_axis.h"
 
 namespace spincat {
 

@@ -5,7 +5,6 @@
 
 #include "spincat/camera/segment/segment.h"
 #include "spincat/geometry/object.h"
-#include "spincat/geometry/up_axis.h"
 
 namespace spincat {
 

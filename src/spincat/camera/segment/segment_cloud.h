@@ -5,7 +5,7 @@
 
 #include "spincat/camera/segment/segment.h"
 #include "spincat/camera/segment/table.h"
-#include "spincat/camera/source/depth_image.h"
+#include "spincat/camera/source/frame_source.h"
 #include "spincat/geometry/object.h"
 
 namespace spincat {

@@ -7,26 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "spincat/camera/source/depth_image.h"
+#include "spincat/camera/segment/scene.h"
+#include "spincat/camera/source/frame_source.h"
 
 namespace spincat {
-
-// All points x with normal . x + offset = 0, in metres in the camera's frame. The normal has length 1 and points to the
-// side of the camera.
-struct SupportPlane {
-  Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();
-  float offset = 0.0F;
-  double share = 0.0;  // of the readings that lie on it, near ones counting more
-
-  float height(const Eigen::Vector3f& point) const { return normal.dot(point) + offset; }
-};
-
-struct TableSettings {
-  std::optional<Eigen::Vector3f> up;  // what is up in the camera's frame: without it a wall may pass for a table
-  double least_share = 0.1;           // of the readings, below which no plane is a table
-  int trials = 200;
-  std::uint64_t seed = 1;
-};
 
 // How far a reading of a plane at depth z may lie from it: what a structured-light sensor's noise amounts to.
 inline float plane_tolerance(float z) {

@@ -6,12 +6,9 @@
 #include <span>
 #include <vector>
 
-namespace spincat {
+#include "spincat/camera/segment/scene.h"
 
-struct TrackSettings {
-  float most_step = 0.12F;  // metres that an object moves from one frame to the next
-  int most_missing = 15;    // frames that it may not be seen before it is forgotten
-};
+namespace spincat {
 
 // Follows objects by their positions over the table: each is taken to be the nearest of those of the frame before, the
 // closest pairs first, expected where it would be if it went on as before. Deterministic.

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "spincat/camera/source/depth_image.h"
+#include "spincat/camera/source/frame_source.h"
 
 namespace spincat {
 

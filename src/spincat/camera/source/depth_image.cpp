@@ -1,9 +1,8 @@
-#include "spincat/camera/source/depth_image.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
 
+#include "spincat/camera/source/frame_source.h"
 #include "spincat/error.h"
 
 namespace spincat {

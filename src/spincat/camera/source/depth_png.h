@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "spincat/camera/source/depth_image.h"
+#include "spincat/camera/source/frame_source.h"
 #include "spincat/io/read_limits.h"
 
 namespace spincat {

@@ -38,10 +38,10 @@ if(SPINCAT_HARDEN AND NOT SPINCAT_SANITIZE)
       target_compile_options(spincat_compiler INTERFACE $<$<CONFIG:Release>:${flag}>)
     endif()
   endforeach()
-  # Position-independent as Debian's compiler makes everything, said for others; modules keep their own -fPIC.
+  # Position-independent as Debian's compiler makes everything, said for others; libraries and modules have -fPIC.
   target_compile_options(spincat_compiler INTERFACE
     $<$<CONFIG:Release>:-U_FORTIFY_SOURCE> $<$<CONFIG:Release>:-D_FORTIFY_SOURCE=3>
-    $<$<AND:$<CONFIG:Release>,$<NOT:$<STREQUAL:$<TARGET_PROPERTY:TYPE>,MODULE_LIBRARY>>>:-fPIE>)
+    $<$<AND:$<CONFIG:Release>,$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>>:-fPIE>)
   target_link_options(spincat_compiler INTERFACE
     $<$<CONFIG:Release>:LINKER:-z,relro,-z,now>
     $<$<AND:$<CONFIG:Release>,$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>>:-pie>)

@@ -1,37 +1,72 @@
-# The installed library, the command, and a CMake package: find_package(spincat) gives spincat::spincat.
+# The installed library, the command, and what find_package(spincat) and pkg-config read: both give the library, static
+# unless BUILD_SHARED_LIBS is on.
 include(CMakePackageConfigHelpers)
 
-# A header whose first line says "Private" belongs to the library alone and is not installed: it may name libraries that
-# users need not have, and may change without notice.
-file(GLOB_RECURSE public_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/spincat/*.h)
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${public_headers})
-foreach(header ${public_headers})
-  file(STRINGS ${header} first_line LIMIT_COUNT 1)
-  if(first_line MATCHES "Private")
-    list(REMOVE_ITEM public_headers ${header})
-  endif()
-endforeach()
-target_sources(spincat PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/src FILES ${public_headers})
+# What users may include. A new one is named here and in spincat.h; it may include only these and Eigen.
+set(public_headers
+  spincat.h error.h execution.h range.h
+  geometry/object.h geometry/oriented_points.h
+  io/read_limits.h io/read_object.h
+  dataset/dataset.h
+  prepare/prepare.h
+  spin/params.h spin/spin_images.h spin/spin_image_maker.h
+  encode/feature_vector.h
+  judge/settings.h judge/ballot.h
+  camera/source/frame_source.h camera/segment/scene.h
+  settings/settings.h settings/setting_table.h
+  describe/describe.h
+  classify/model.h classify/classify.h classify/evidence.h classify/recogniser.h
+  train/train.h
+  evaluate/evaluate.h evaluate/rates.h evaluate/sweep.h
+  report/report.h)
+list(TRANSFORM public_headers PREPEND ${PROJECT_SOURCE_DIR}/src/spincat/)
 
-# Models hold Eigen matrices, and Eigen allocates these in another way where it is allowed wider vectors. Whoever compiles
-# with -march=native must still be able to free what the library, built for every machine, has allocated. Without such
-# options these are Eigen's own values.
+# OrientedPoints and others hold Eigen's matrices, and Eigen allocates these in another way where it is allowed wider
+# vectors. Whoever compiles with -march=native must still be able to free what the library, built for every machine, has
+# allocated. Without such options these are Eigen's own values.
+set(public_definitions EIGEN_DONT_PARALLELIZE)
 if(CMAKE_SIZEOF_VOID_P EQUAL 8)
-  target_compile_definitions(spincat INTERFACE $<INSTALL_INTERFACE:EIGEN_MAX_ALIGN_BYTES=16>
-                                               $<INSTALL_INTERFACE:EIGEN_MALLOC_ALREADY_ALIGNED=1>)
+  list(APPEND public_definitions EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
+
+# Installs one of the two libraries with all that goes with it. Further arguments are install()'s, for every file.
+function(spincat_install_library target)
+  set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/spincat)
+  set(made ${PROJECT_BINARY_DIR}/package/${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME spincat)
+  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/src FILES ${public_headers})
+  list(TRANSFORM public_definitions REPLACE "(.+)" "$<INSTALL_INTERFACE:\\1>" OUTPUT_VARIABLE definitions)
+  target_compile_definitions(${target} INTERFACE ${definitions})
+  install(TARGETS ${target} EXPORT ${target}_targets
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} ${ARGN}
+          LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ${ARGN}
+          FILE_SET HEADERS ${ARGN})
+  install(EXPORT ${target}_targets FILE spincat_targets.cmake NAMESPACE spincat:: DESTINATION ${package_dir} ${ARGN})
+
+  get_target_property(type ${target} TYPE)
+  string(COMPARE EQUAL ${type} STATIC_LIBRARY is_static)
+  configure_package_config_file(cmake/spincatConfig.cmake.in ${made}/spincatConfig.cmake INSTALL_DESTINATION ${package_dir})
+  write_basic_package_version_file(${made}/spincatConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+  install(FILES ${made}/spincatConfig.cmake ${made}/spincatConfigVersion.cmake cmake/FindLibSVM.cmake
+                cmake/FindTinyGLTFPacked.cmake cmake/FindLodePNG.cmake
+          DESTINATION ${package_dir} ${ARGN})
+
+  # Found from wherever the prefix is moved to.
+  file(RELATIVE_PATH to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+  list(TRANSFORM public_definitions PREPEND "-D" OUTPUT_VARIABLE flags)
+  list(JOIN flags " " definition_flags)
+  configure_file(cmake/spincat.pc.in ${made}/spincat.pc @ONLY)
+  install(FILES ${made}/spincat.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig ${ARGN})
+endfunction()
 
 if(TARGET spincat_command)
   install(TARGETS spincat_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
-install(TARGETS spincat EXPORT spincat_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} FILE_SET HEADERS)
-
-set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/spincat)
-install(EXPORT spincat_targets NAMESPACE spincat:: DESTINATION ${package_dir})
-configure_package_config_file(cmake/spincatConfig.cmake.in ${PROJECT_BINARY_DIR}/spincatConfig.cmake
-                              INSTALL_DESTINATION ${package_dir})
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/spincatConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/spincatConfig.cmake ${PROJECT_BINARY_DIR}/spincatConfigVersion.cmake
-              cmake/FindLibSVM.cmake cmake/FindTinyGLTFPacked.cmake
-              cmake/FindLodePNG.cmake
-        DESTINATION ${package_dir})
+if(BUILD_SHARED_LIBS)
+  spincat_install_library(spincat_shared)
+else()
+  spincat_install_library(spincat)
+  # For the tests, and for whoever wants both from one build: cmake --build ... --target spincat_shared, then
+  # cmake --install ... --component shared.
+  spincat_install_library(spincat_shared COMPONENT shared EXCLUDE_FROM_ALL)
+endif()

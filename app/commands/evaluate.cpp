@@ -20,7 +20,7 @@
 #include "spincat/parallel/task_farm.h"
 #include "spincat/report/confusion_picture.h"
 #include "spincat/report/json.h"
-#include "spincat/report/page.h"
+#include "spincat/report/report.h"
 #include "spincat/report/text.h"
 
 namespace spincat::app {

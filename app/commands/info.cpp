@@ -17,6 +17,7 @@
 #include "spincat/prepare/facts.h"
 #include "spincat/report/json.h"
 #include "spincat/report/object_page.h"
+#include "spincat/report/report.h"
 #include "spincat/report/text.h"
 
 namespace spincat::app {

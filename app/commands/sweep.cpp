@@ -16,7 +16,7 @@
 #include "spincat/error.h"
 #include "spincat/files/file.h"
 #include "spincat/parallel/task_farm.h"
-#include "spincat/report/page.h"
+#include "spincat/report/report.h"
 #include "spincat/report/sweep_report.h"
 
 namespace spincat::app {

@@ -16,6 +16,7 @@
 #include "spincat/files/file.h"
 #include "spincat/parallel/task_farm.h"
 #include "spincat/report/json.h"
+#include "spincat/report/report.h"
 #include "spincat/report/text.h"
 
 namespace spincat::app {

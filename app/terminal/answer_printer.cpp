@@ -10,6 +10,7 @@
 #include "app/terminal/messages.h"
 #include "app/terminal/terminal.h"
 #include "spincat/report/json.h"
+#include "spincat/report/report.h"
 #include "spincat/report/text.h"
 #include "spincat/report/text_table.h"
 

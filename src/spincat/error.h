@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 // Base of both. what() is the whole line: "FILE: what is wrong", or only "what is wrong" where no file is known yet.
@@ -41,3 +42,4 @@ class RunError : public Error {
 };
 
 }  // namespace spincat
+#pragma GCC visibility pop

@@ -7,6 +7,7 @@
 
 #include "spincat/io/read_limits.h"
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 class TaskFarm;  // the command's threads and ranks; users have no way to make one
@@ -33,3 +34,4 @@ struct Execution {
 };
 
 }  // namespace spincat
+#pragma GCC visibility pop

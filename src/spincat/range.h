@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 // From `low` to `high`, both allowed unless `above` says that `low` is not. Infinite bounds are none.
@@ -23,3 +24,4 @@ void check_range(std::string_view name, int value, const Range& range);
 void check_range(std::string_view name, double value, const Range& range);
 
 }  // namespace spincat
+#pragma GCC visibility pop

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "spincat/report/json.h"
+#include "spincat/report/report.h"
 #include "spincat/settings/settings_json.h"
 
 namespace spincat {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "spincat/classify/model_data.h"
+#include "spincat/report/report.h"
 #include "spincat/settings/settings_json.h"
 
 namespace spincat {

@@ -12,6 +12,7 @@
 #include "spincat/report/base64.h"
 #include "spincat/report/evidence_json.h"
 #include "spincat/report/json.h"
+#include "spincat/report/report.h"
 #include "spincat/report/shape_json.h"
 #include "spincat/train/train.h"
 #include "support/shapes.h"

@@ -1,11 +1,11 @@
 // Pages: what is in the file. What a browser makes of it is in browser/check_pages.py.
-#include "spincat/report/page.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "spincat/report/json.h"
+#include "spincat/report/report.h"
 #include "spincat/report/sweep_report.h"
 
 namespace spincat {

@@ -15,6 +15,7 @@
 #include "spincat/io/read_limits.h"
 #include "spincat/judge/ballot.h"
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 struct Classification {
@@ -45,3 +46,4 @@ void classify_files(const Model& model, std::span<const std::filesystem::path> f
                     const std::function<void(std::size_t i, const Answer& answer)>& deliver);
 
 }  // namespace spincat
+#pragma GCC visibility pop

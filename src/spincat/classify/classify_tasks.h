@@ -1,4 +1,4 @@
-// Private to the library, not installed: naming many files on all threads and ranks of a farm (classify.h).
+// Naming many files on all threads and ranks of a farm (classify.h).
 #pragma once
 
 #include <string_view>

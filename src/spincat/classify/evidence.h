@@ -10,6 +10,7 @@
 #include "spincat/geometry/object.h"
 #include "spincat/judge/ballot.h"
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 enum class EvidenceKind {
@@ -51,3 +52,4 @@ struct Evidence {
 Evidence explain(const Model& model, const Object& object, const Ballot& ballot);
 
 }  // namespace spincat
+#pragma GCC visibility pop

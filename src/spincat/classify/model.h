@@ -10,6 +10,7 @@
 
 #include "spincat/settings/settings.h"
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 // The newest version of the model file that this library reads, which is the one it writes, and the oldest one. Models
@@ -54,3 +55,4 @@ Model read_model(const std::filesystem::path& file);
 bool is_model_file(const std::filesystem::path& file);
 
 }  // namespace spincat
+#pragma GCC visibility pop

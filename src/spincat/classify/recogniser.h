@@ -13,6 +13,7 @@
 #include "spincat/classify/model.h"
 #include "spincat/judge/ballot.h"
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 struct RecogniserSettings {
@@ -84,3 +85,4 @@ class Recogniser {
 };
 
 }  // namespace spincat
+#pragma GCC visibility pop

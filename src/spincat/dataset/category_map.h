@@ -1,4 +1,4 @@
-// Private to this folder, not installed: which classes of a source to keep, and what to call them.
+// Which classes of a source to keep, and what to call them.
 #pragma once
 
 #include <filesystem>

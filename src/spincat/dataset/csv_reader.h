@@ -1,4 +1,4 @@
-// Private to this folder, not installed: a small reader of CSV tables by RFC 4180.
+// A small reader of CSV tables by RFC 4180.
 //
 // Beyond the RFC: a byte-order mark is passed over, lines that start with # are comments, empty lines are skipped, and
 // lines may end with LF, CRLF or CR. Spaces belong to the field that they stand in, as the RFC has it.

@@ -8,6 +8,7 @@
 
 #include "spincat/io/read_limits.h"
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 // One object of a data set. It is not read here: `file` is where it should be.
@@ -78,3 +79,4 @@ Dataset training_part(const Dataset& dataset);
 Dataset testing_part(const Dataset& dataset);
 
 }  // namespace spincat
+#pragma GCC visibility pop

@@ -1,4 +1,4 @@
-// Private to this folder, not installed: what one source of a data set lists, before a category map is applied and
+// What one source of a data set lists, before a category map is applied and
 // before anybody looked whether the files are there.
 #pragma once
 

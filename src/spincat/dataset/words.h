@@ -1,4 +1,4 @@
-// Private to this folder, not installed: the wording that its error messages share.
+// The wording that its error messages share.
 #pragma once
 
 #include <fmt/format.h>

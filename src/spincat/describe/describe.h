@@ -12,6 +12,7 @@
 #include "spincat/settings/settings.h"
 #include "spincat/spin/params.h"
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 // Seconds spent in each stage (the paper's Figure 3).
@@ -68,3 +69,4 @@ struct PreparedPart {
 std::vector<PreparedPart> prepare_parts(const Object& object, const Settings& settings);
 
 }  // namespace spincat
+#pragma GCC visibility pop

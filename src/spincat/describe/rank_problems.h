@@ -1,4 +1,4 @@
-// Private to the library, not installed: works whose results begin with a problem in words, empty where there is none.
+// Works whose results begin with a problem in words, empty where there is none.
 #pragma once
 
 #include <string>

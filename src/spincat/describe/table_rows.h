@@ -1,4 +1,4 @@
-// Private to the library, not installed: the rows of a feature table, while its objects come in.
+// The rows of a feature table, while its objects come in.
 #pragma once
 
 #include <cstddef>

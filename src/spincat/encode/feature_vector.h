@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 struct FeatureVector {
@@ -15,3 +16,4 @@ struct FeatureVector {
 };
 
 }  // namespace spincat
+#pragma GCC visibility pop

@@ -13,6 +13,7 @@
 #include "spincat/execution.h"
 #include "spincat/settings/settings.h"
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 // Which objects are learned from and which are tested.
@@ -129,3 +130,4 @@ Evaluation evaluate_across(const Dataset& train, const Dataset& test, const Sett
                            const EvaluateOptions& options, const Execution& execution = {});
 
 }  // namespace spincat
+#pragma GCC visibility pop

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 // n x n counts: row = the truth, column = what the object was named.
@@ -50,3 +51,4 @@ Rate rate_over_splits(std::span<const double> values, double test_share);
 double student_t_95(int degrees);
 
 }  // namespace spincat
+#pragma GCC visibility pop

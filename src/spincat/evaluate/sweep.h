@@ -9,6 +9,7 @@
 #include "spincat/evaluate/evaluate.h"
 #include "spincat/settings/setting_choices.h"
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 // A setting (setting_table.h) and the values it is to take, as text.
@@ -47,3 +48,4 @@ Sweep sweep(const Dataset& dataset, const SettingChoices& settings, const std::v
             const EvaluateOptions& options, const Execution& execution = {}, const std::filesystem::path& journal = {});
 
 }  // namespace spincat
+#pragma GCC visibility pop

@@ -1,4 +1,4 @@
-// Private to the library, not installed: what an interrupted sweep has found so far.
+// What an interrupted sweep has found so far.
 //
 // Lines of JSON, each with a blank and its CRC-32 (eight digits) behind it. The first says which sweep it is; every
 // other one is a point. A line counts when it is whole: the last one, cut off by a power failure, is written over.

@@ -1,4 +1,4 @@
-// Private to the library, not installed: one trial of an evaluation.
+// One trial of an evaluation.
 #pragma once
 
 #include <cstdint>

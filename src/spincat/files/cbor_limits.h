@@ -1,4 +1,4 @@
-// Private: what a record's content may be, so that reading it takes memory in proportion to its bytes and no deep
+// What a record's content may be, so that reading it takes memory in proportion to its bytes and no deep
 // stack.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Private: locks on open files, as other processes see them.
+// Locks on open files, as other processes see them.
 #pragma once
 
 #include <sys/file.h>

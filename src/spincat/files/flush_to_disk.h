@@ -1,4 +1,4 @@
-// Private: waiting for the disk.
+// Waiting for the disk.
 #pragma once
 
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-// Private: the first bytes of every file that spincat writes for itself. 0x1A stops a listing of it on a terminal.
+// The first bytes of every file that spincat writes for itself. 0x1A stops a listing of it on a terminal.
 #pragma once
 
 #include <string_view>

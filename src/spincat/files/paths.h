@@ -1,4 +1,4 @@
-// Private: what the names of files tell, and what they lead to.
+// What the names of files tell, and what they lead to.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Private to the library, not installed (it names nlohmann's types): the safe container of every file that spincat
+// The safe container of every file that spincat
 // writes for itself, the model first of all.
 //
 //   bytes  what

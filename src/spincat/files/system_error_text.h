@@ -1,4 +1,4 @@
-// Private: what the system says of a failure, in the words of our messages.
+// What the system says of a failure, in the words of our messages.
 #pragma once
 
 #include <cerrno>

@@ -1,4 +1,4 @@
-// Private: the files that results are written to before they get their names, and what killed runs leave of them.
+// The files that results are written to before they get their names, and what killed runs leave of them.
 #pragma once
 
 #include <filesystem>

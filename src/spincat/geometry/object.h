@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 // Positions from files are doubles: coordinates of 1e30 or far from the origin keep their shape until they are scaled.
@@ -41,3 +42,4 @@ struct PointCloud {
 using Object = std::variant<Mesh, PointCloud>;
 
 }  // namespace spincat
+#pragma GCC visibility pop

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 // Memory for vectorised loops.
@@ -65,3 +66,4 @@ class OrientedPoints {
 };
 
 }  // namespace spincat
+#pragma GCC visibility pop

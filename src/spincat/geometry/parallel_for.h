@@ -1,4 +1,4 @@
-// Private: a loop over threads.
+// A loop over threads.
 #pragma once
 
 #include <atomic>

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 struct ReadLimits {
@@ -20,3 +21,4 @@ struct ReadLimits {
 void check_growth(std::uint64_t memory, std::uint64_t file_size, const ReadLimits& limits);
 
 }  // namespace spincat
+#pragma GCC visibility pop

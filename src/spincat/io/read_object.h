@@ -8,6 +8,7 @@
 #include "spincat/geometry/object.h"
 #include "spincat/io/read_limits.h"
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 // Reads an OFF, OBJ, PLY, STL, PCD, XYZ, glTF or GLB file; the extension decides, upper or lower case. XYZ files are
@@ -34,3 +35,4 @@ bool is_object_file(const std::filesystem::path& file);
 const std::vector<std::string>& object_extensions();
 
 }  // namespace spincat
+#pragma GCC visibility pop

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 // One judge's word on one object.
@@ -52,3 +53,4 @@ SummedVotes sum_votes(std::span<const Ballot> ballots);
 Ballot ballot_without(const Ballot& ballot, std::uint32_t category);
 
 }  // namespace spincat
+#pragma GCC visibility pop

@@ -5,6 +5,7 @@
 
 #include "spincat/range.h"
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 // How alike two feature vectors x and y are.
@@ -29,3 +30,4 @@ struct JudgeSettings {
 };
 
 }  // namespace spincat
+#pragma GCC visibility pop

@@ -1,4 +1,4 @@
-// Private to parallel: what rank 0 and the others say to each other.
+// What rank 0 and the others say to each other.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Private to parallel: what rank 0 knows of another rank, and how long tasks take.
+// What rank 0 knows of another rank, and how long tasks take.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// Private to parallel: rank 0's signs of life.
+// Rank 0's signs of life.
 #pragma once
 
 #include <stop_token>

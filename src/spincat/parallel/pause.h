@@ -1,4 +1,4 @@
-// Private to parallel: how long a rank sleeps between two looks for messages.
+// How long a rank sleeps between two looks for messages.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Private to parallel and to the command: what the kernel tells of another process of this machine.
+// What the kernel tells of another process of this machine.
 #pragma once
 
 #include <cstdint>

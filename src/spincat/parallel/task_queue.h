@@ -1,4 +1,4 @@
-// Private to parallel: which tasks of a job are open, being done and done.
+// Which tasks of a job are open, being done and done.
 #pragma once
 
 #include <chrono>

@@ -7,6 +7,7 @@
 #include "spincat/geometry/oriented_points.h"
 #include "spincat/range.h"
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 // Which points stand for the surface of a mesh. (A point cloud is its own surface.)
@@ -55,3 +56,4 @@ PreparedObject prepare(const Object& object, const PrepareSettings& settings, st
 Object stretched_copy(const Object& object, int copy, double amount, std::uint64_t seed);
 
 }  // namespace spincat
+#pragma GCC visibility pop

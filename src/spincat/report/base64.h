@@ -1,4 +1,4 @@
-// Private to this folder, not installed: numbers as pages carry them.
+// Numbers as pages carry them.
 #pragma once
 
 #include <cstdint>

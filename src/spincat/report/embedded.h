@@ -1,4 +1,4 @@
-// Private to this folder, not installed: files that the library carries within itself (cmake/embed.cmake).
+// Files that the library carries within itself (cmake/embed.cmake).
 #pragma once
 
 #include <cstddef>

@@ -3,6 +3,7 @@
 
 #include "spincat/report/json.h"
 #include "spincat/report/json_parts.h"
+#include "spincat/report/report.h"
 #include "spincat/settings/settings_json.h"
 
 namespace spincat {

@@ -1,4 +1,4 @@
-// Private to this folder, not installed: what spin points say, as pages show it.
+// What spin points say, as pages show it.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Private to this folder, not installed: pieces that several JSON reports have in common.
+// Pieces that several JSON reports have in common.
 #pragma once
 
 #include <cstddef>

@@ -7,6 +7,7 @@
 #include "spincat/report/evidence_json.h"
 #include "spincat/report/json.h"
 #include "spincat/report/page_parts.h"
+#include "spincat/report/report.h"
 #include "spincat/report/shape_json.h"
 #include "spincat/settings/settings_json.h"
 

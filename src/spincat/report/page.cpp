@@ -1,11 +1,9 @@
-#include "spincat/report/page.h"
-
+// The pages of evaluations and sweeps.
 #include <map>
 
 #include "spincat/report/embedded.h"
-#include "spincat/report/json.h"
 #include "spincat/report/page_parts.h"
-#include "spincat/report/sweep_report.h"
+#include "spincat/report/report.h"
 
 namespace spincat {
 namespace {

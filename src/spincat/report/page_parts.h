@@ -1,4 +1,4 @@
-// Private to this folder, not installed: how a page is put together.
+// How a page is put together.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Private to this folder, not installed: objects as pages draw them.
+// Objects as pages draw them.
 #pragma once
 
 #include <cstddef>

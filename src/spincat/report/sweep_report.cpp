@@ -6,6 +6,7 @@
 
 #include "spincat/report/csv_field.h"
 #include "spincat/report/json_parts.h"
+#include "spincat/report/report.h"
 #include "spincat/report/text.h"
 #include "spincat/report/text_table.h"
 #include "spincat/settings/setting_table.h"

@@ -11,6 +11,7 @@
 #include "spincat/range.h"
 #include "spincat/settings/settings.h"
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 // A member of Settings, whatever its type.
@@ -59,3 +60,4 @@ std::string setting_text(const Settings& settings, const Setting& setting);
 void set_setting(Settings& settings, const Setting& setting, std::string_view text, std::string_view label);
 
 }  // namespace spincat
+#pragma GCC visibility pop

@@ -12,6 +12,7 @@
 #include "spincat/range.h"
 #include "spincat/spin/params.h"
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 // The unit in which a bin size is given.
@@ -81,3 +82,4 @@ const std::vector<std::string>& preset_names();
 Settings trained_by_views(Settings settings, int views);
 
 }  // namespace spincat
+#pragma GCC visibility pop

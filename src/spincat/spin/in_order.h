@@ -1,4 +1,4 @@
-// Private to spin: work cut into steps that are done on several threads and delivered in order.
+// Work cut into steps that are done on several threads and delivered in order.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Private to spin: the inner loops of the spin-image engine, one set of functions for each SIMD instruction set.
+// The inner loops of the spin-image engine, one set of functions for each SIMD instruction set.
 #pragma once
 
 #include <cstddef>

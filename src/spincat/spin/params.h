@@ -6,6 +6,7 @@
 
 #include "spincat/range.h"
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 // How a pair of points becomes a place in the image; docs/how-it-works/spin-images.md has the exact formulas of both.
@@ -61,3 +62,4 @@ struct SpinImageParams {
 double pcl_bin_size(double search_radius, int image_width);
 
 }  // namespace spincat
+#pragma GCC visibility pop

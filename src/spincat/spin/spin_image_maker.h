@@ -9,6 +9,7 @@
 #include "spincat/spin/params.h"
 #include "spincat/spin/spin_images.h"
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 // Makes spin images as docs/how-it-works/spin-images.md defines them. The same bytes come out on every SIMD path and
@@ -41,3 +42,4 @@ class SpinImageMaker {
 };
 
 }  // namespace spincat
+#pragma GCC visibility pop

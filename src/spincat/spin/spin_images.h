@@ -8,6 +8,7 @@
 #include "spincat/geometry/oriented_points.h"
 #include "spincat/spin/params.h"
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 // `count` images of `shape`, one after the other; image k begins at k * shape.size().
@@ -57,3 +58,4 @@ SpinImages make_spin_images(const OrientedPoints& surface, const OrientedPoints&
                             const SpinImageParams& params, int threads = 1);
 
 }  // namespace spincat
+#pragma GCC visibility pop

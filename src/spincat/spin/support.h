@@ -1,4 +1,4 @@
-// Private to spin: the support of a spin image as thresholds on what is cheap to compute.
+// The support of a spin image as thresholds on what is cheap to compute.
 #pragma once
 
 #include "spincat/spin/params.h"

@@ -1,4 +1,4 @@
-// Private to spin: a surface cut into small groups of neighbouring points with known bounds, so that a kernel can pass
+// A surface cut into small groups of neighbouring points with known bounds, so that a kernel can pass
 // over those that a spin image cannot see.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Private to the library, not installed: numbers by which ranks know again what they were given.
+// Numbers by which ranks know again what they were given.
 #pragma once
 
 #include <atomic>

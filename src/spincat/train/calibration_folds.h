@@ -1,4 +1,4 @@
-// Private to the library, not installed: how far votes can be trusted is found out by cross-validation.
+// How far votes can be trusted is found out by cross-validation.
 #pragma once
 
 #include <cstdint>

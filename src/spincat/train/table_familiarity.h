@@ -1,4 +1,4 @@
-// Private to the library, not installed: familiarity with the objects of a table.
+// Familiarity with the objects of a table.
 #pragma once
 
 #include <cstdint>

@@ -9,6 +9,7 @@
 #include "spincat/execution.h"
 #include "spincat/settings/settings.h"
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 struct TrainResult {
@@ -22,3 +23,4 @@ struct TrainResult {
 TrainResult train(const Dataset& dataset, const Settings& settings, const Execution& execution = {});
 
 }  // namespace spincat
+#pragma GCC visibility pop

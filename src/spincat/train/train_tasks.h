@@ -1,4 +1,4 @@
-// Private to the library, not installed: what ranks do for a trainer, and what they keep for it.
+// What ranks do for a trainer, and what they keep for it.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Private to the library, not installed: what the judges of one training have in common.
+// What the judges of one training have in common.
 #pragma once
 
 #include <Eigen/Core>

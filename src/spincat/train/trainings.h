@@ -1,4 +1,4 @@
-// Private to the library, not installed: the trainings of one job.
+// The trainings of one job.
 #pragma once
 
 #include <cstddef>

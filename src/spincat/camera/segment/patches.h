@@ -1,4 +1,4 @@
-// Private to camera: sets of pixels that hang together.
+// Sets of pixels that hang together.
 #pragma once
 
 #include <cstddef>

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 // All points x with normal . x + offset = 0, in metres in the camera's frame. The normal has length 1 and points to the
@@ -72,3 +73,4 @@ struct TrackSettings {
 };
 
 }  // namespace spincat
+#pragma GCC visibility pop

@@ -1,4 +1,4 @@
-// Private: TUM's list of the depth pictures of a recording.
+// TUM's list of the depth pictures of a recording.
 #pragma once
 
 #include <deque>

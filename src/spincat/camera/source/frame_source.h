@@ -11,6 +11,7 @@
 
 #include "spincat/io/read_limits.h"
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 // A pinhole camera: pixel (u, v) with depth z is the point ((u - cx) z / fx, (v - cy) z / fy, z): x to the right, y
@@ -84,3 +85,4 @@ struct FrameSettings {
 std::unique_ptr<FrameSource> open_recording(const std::filesystem::path& place, const FrameSettings& settings);
 
 }  // namespace spincat
+#pragma GCC visibility pop

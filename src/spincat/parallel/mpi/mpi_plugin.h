@@ -1,4 +1,4 @@
-// Private: what the MPI plug-in offers to the command, which is not linked to any MPI and loads it where a launcher
+// What the MPI plug-in offers to the command, which is not linked to any MPI and loads it where a launcher
 // has started several ranks.
 #pragma once
 

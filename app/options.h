@@ -11,7 +11,6 @@
 #include "spincat/dataset/dataset.h"
 #include "spincat/execution.h"
 #include "spincat/io/read_limits.h"
-#include "spincat/settings/setting_choices.h"
 #include "spincat/settings/setting_table.h"
 
 namespace CLI {

@@ -41,7 +41,7 @@ function(spincat_install_library target)
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} ${ARGN}
           LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ${ARGN}
           FILE_SET HEADERS ${ARGN})
-  install(EXPORT ${target}_targets FILE spincat_targets.cmake NAMESPACE spincat:: DESTINATION ${package_dir} ${ARGN})
+  install(EXPORT ${target}_targets NAMESPACE spincat:: DESTINATION ${package_dir} ${ARGN})
 
   get_target_property(type ${target} TYPE)
   string(COMPARE EQUAL ${type} STATIC_LIBRARY is_static)

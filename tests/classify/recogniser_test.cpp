@@ -58,13 +58,13 @@ DepthImage times(DepthImage image, float factor) {
 std::map<std::string, std::uint64_t> ids_by_name(const SeenFrame& frame) {
   std::map<std::string, std::uint64_t> ids;
   for (const SeenObject& object : frame.objects) {
-    ids[views_model().categories[object.fused.winner]] = object.id;
+    ids[views_model().categories()[object.fused.winner]] = object.id;
   }
   return ids;
 }
 
 std::string json_without_times(const SeenFrame& frame) {
-  const std::string json = frame_json({}, frame, views_model().categories);
+  const std::string json = frame_json({}, frame, views_model().categories());
   const std::size_t from = json.find("\"milliseconds\"");
   return json.substr(0, from) + json.substr(json.find('}', from));
 }
@@ -134,7 +134,7 @@ TEST(Recogniser, RejectsWhatItIsNotSureOf) {
   const SeenFrame frame = recogniser.look(noisy(box_and_cone(), 1), Intrinsics{});
   ASSERT_EQ(frame.objects.size(), 2U);
   EXPECT_TRUE(frame.objects[0].unknown);
-  const std::string json = frame_json({}, frame, views_model().categories);
+  const std::string json = frame_json({}, frame, views_model().categories());
   EXPECT_NE(json.find("\"status\":\"unknown\""), std::string::npos);
   EXPECT_NE(json.find("\"best_guess\""), std::string::npos);
 }

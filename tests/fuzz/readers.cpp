@@ -28,7 +28,7 @@
 #include "spincat/io/organized_cloud.h"
 #include "spincat/parallel/journal.h"
 #include "spincat/parallel/packing.h"
-#include "spincat/settings/setting_choices.h"
+#include "spincat/settings/setting_table.h"
 #include "spincat/settings/settings_json.h"
 #include "support/png_bytes.h"
 

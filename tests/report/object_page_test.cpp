@@ -178,7 +178,7 @@ TEST(ClassificationPage, HoldsTheAnswersAndWhereTheirEvidenceLies) {
     EXPECT_EQ(image["rows"], 12);  // 24 rows are too many
     EXPECT_EQ(numbers_of<std::uint8_t>(image["values"]).size(), 2U * 12U * 12U);
   }
-  EXPECT_EQ(count(page, "<b>"), count(classification_page("m", model, {}, {}), "<b>"));
+  EXPECT_EQ(count(page, "<b>"), count(classification_page("m", model, std::vector<PageObject>{}, {}), "<b>"));
 }
 
 TEST(ClassificationPage, SixHundredObjectsOfNinetyCategoriesStaySmall) {

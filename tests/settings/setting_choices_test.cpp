@@ -1,5 +1,4 @@
 // What a user chooses against what a preset, and other choices, bring with them.
-#include "spincat/settings/setting_choices.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 
 #include "spincat/dataset/dataset.h"
 #include "spincat/evaluate/evaluate.h"
-#include "spincat/settings/setting_choices.h"
+#include "spincat/settings/setting_table.h"
 
 #pragma GCC visibility push(default)
 namespace spincat {

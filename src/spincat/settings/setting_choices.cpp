@@ -1,5 +1,3 @@
-#include "spincat/settings/setting_choices.h"
-
 #include <fmt/format.h>
 
 #include "spincat/error.h"

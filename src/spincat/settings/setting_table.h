@@ -6,7 +6,9 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "spincat/range.h"
 #include "spincat/settings/settings.h"
@@ -58,6 +60,32 @@ std::string setting_text(const Settings& settings, const Setting& setting);
 // Sets one member from text and nothing else. "bin_size" may have its unit behind it: "0.05rel", "2res", "3.5abs".
 // Throws InputError "LABEL TEXT: expected ..." when the text is no value of its type, or out of range.
 void set_setting(Settings& settings, const Setting& setting, std::string_view text, std::string_view label);
+
+// Settings as a user chooses them: a preset, and what is to be different.
+
+// One setting that a user asked for.
+struct ChosenSetting {
+  std::string name;   // as find_setting takes it
+  std::string text;   // its value
+  std::string label;  // how messages call it: "--copies"; empty: by its name
+};
+
+// The base comes first. Then what the chosen settings bring with them: a kernel its C, views their smaller images. Then
+// the chosen values themselves, so that these always hold.
+struct SettingChoices {
+  Settings base;
+  std::vector<ChosenSetting> chosen;
+
+  SettingChoices(Settings settings_before = preset("default"), std::vector<ChosenSetting> wanted = {})  // NOLINT
+      : base(std::move(settings_before)), chosen(std::move(wanted)) {}
+
+  // These choices and one more, which replaces the one with the same name.
+  SettingChoices with(ChosenSetting one) const;
+
+  // Throws InputError when there is no such setting, a value is of another type or out of range, a chosen setting is
+  // without effect beside the others, or settings cannot go together.
+  Settings settings() const;
+};
 
 }  // namespace spincat
 #pragma GCC visibility pop

@@ -35,10 +35,10 @@ HOST_START = 0.05          # seconds of launching, for each doubling of the host
 class Size:
     """What a problem takes."""
     units: float           # done by one process
-    work: float            # shared out among all
+    work: float            # distributed among all
     sent: float            # bytes to each other process
     returned: float        # bytes from all that are not the first process
-    training: float = 0.0  # shared out, too, where processes are sent the table of features and its inner products:
+    training: float = 0.0  # distributed, too, where processes are sent the table of features and its inner products:
     table: float = 0.0     # so many bytes each
 
 
@@ -202,7 +202,7 @@ def svg(curves, file):
         tick *= 4
     parts.append(f'<text x="{(left + width - 150) / 2}" y="{height - 12}" text-anchor="middle">workers (threads)</text>')
     parts.append(f'<text x="14" y="{height / 2}" transform="rotate(-90 14 {height / 2})" text-anchor="middle">'
-                 "times as fast as one</text>")
+                 "speed-up over one</text>")
     parts.append(f'<polyline points="{place(1, 1)} {place(most, most)}" fill="none" stroke="#999" stroke-dasharray="4"/>')
     for (name, curve), colour in zip(curves, colours):
         points = " ".join(place(w, g) for w, g in curve)
@@ -286,7 +286,7 @@ def report(studies, division_rows, options):
     for name, samples, model, size, largest in studies:
         alone = {problem: s for problem, ranks, threads, s in samples if (ranks, threads) == (1, 1)}
         text += f"## {name}: measured\n\n" + table(
-            ["problem", "ranks", "threads each", "seconds", "times as fast"],
+            ["problem", "ranks", "threads each", "seconds", "speed-up"],
             [(p, r, t, f"{s:.2f}", f"{alone[p] / s:.2f}") for p, r, t, s in samples])
         text += "\n" + ", ".join(f"{k} = {v:.3g}" for k, v in model.items()) + "\n\n"
         for problem in [largest] + ([LARGE_OBJECT] if name == "dense object" else []):
@@ -297,7 +297,7 @@ def report(studies, division_rows, options):
             if problem == largest:
                 predicted[name] = [(p, max(1, math.ceil(p / HOST_CORES)), one / gain) for p, gain in curve]
             text += f"## {name} ({problem}): predicted\n\n" + table(
-                ["workers", "hosts", "seconds", "times as fast as one"],
+                ["workers", "hosts", "seconds", "speed-up"],
                 [(p, max(1, math.ceil(p / HOST_CORES)), f"{one / gain:.2f}", f"{gain:.1f}")
                  for p, gain in curve if p >= 8])
             text += "\n"
@@ -325,7 +325,7 @@ def acceptance(options, folder):
     for name, arguments in works:
         times = measure(name, arguments, [(1, 1), (2, 1)], options.rounds, options.mpi)
         print(f"{name}: {times[1, 1]:.2f} s on one rank, {times[2, 1]:.2f} s on two: "
-              f"{times[1, 1] / times[2, 1]:.3f} times as fast", flush=True)
+              f"speed-up {times[1, 1] / times[2, 1]:.3f}", flush=True)
 
 
 def main():

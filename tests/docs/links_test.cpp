@@ -71,4 +71,25 @@ TEST(Docs, EveryLinkLeadsToAFileAndAHeadingOfIt) {
   EXPECT_GT(seen, 30U);
 }
 
+// "docs/guide/camera.md" in a source or a script is a page, too.
+TEST(Docs, EveryPageThatASourceNamesIsThere) {
+  static const std::regex name(R"(docs/[a-z/-]+\.md)");
+  const fs::path root = SPINCAT_SOURCE_DIR;
+  std::size_t seen = 0;
+  for (const char* folder : {"src", "app", "tests", "bench", "cmake", "experiments", "scripts", "tools", "examples"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      const fs::path& file = entry.path();
+      if (!entry.is_regular_file() || fs::file_size(file) > 200'000) {
+        continue;
+      }
+      const std::string text = contents(file);
+      for (std::sregex_iterator at(text.begin(), text.end(), name), end; at != end; ++at) {
+        ++seen;
+        EXPECT_TRUE(fs::exists(root / at->str())) << file << " names " << at->str();
+      }
+    }
+  }
+  EXPECT_GT(seen, 20U);
+}
+
 }  // namespace

@@ -31,4 +31,10 @@ TEST(Reference, CommandPageIsWhatHelpPrints) {
   compare_or_write("command.md", page);
 }
 
+TEST(Reference, SettingsPageIsWhatTheCommandLists) {
+  const std::string page = spincat::test::settings_page(SPINCAT_COMMAND);
+  EXPECT_NE(page.find("| `spin_points` | `--spin-points` |"), std::string::npos);
+  compare_or_write("settings.md", page);
+}
+
 }  // namespace

@@ -79,7 +79,7 @@ Settings trained_by_views(Settings settings, int views) {
   settings.up = UpAxis::y;
   settings.plain_samples = false;  // nothing of a view is hidden
   settings.copies = 0;
-  // More points, images and bins bring nothing here, and cost time with each frame (docs/camera.md).
+  // More points, images and bins bring nothing here, and cost time with each frame (docs/guide/camera.md).
   settings.spin.image_width = 24;
   settings.prepare.points = 1024;
   settings.prepare.spin_points = 128;

@@ -72,13 +72,14 @@ struct Settings {
   void validate() const;
 };
 
-// Named settings: "default" (the best we know; docs/encoding.md) and "paper" (as the paper describes it: 100 random
-// vertices, bilinear images of 20 x 20, concatenated). Throws InputError that lists the names when there is none.
+// Named settings: "default" (the best we know; docs/how-it-works/encoding.md) and "paper" (as the paper describes it:
+// 100 random vertices, bilinear images of 20 x 20, concatenated). Throws InputError that lists the names when there is
+// none.
 Settings preset(std::string_view name);
 const std::vector<std::string>& preset_names();
 
-// The settings changed to what suits judges that will look through a depth camera (docs/camera.md), trained by so many
-// views of each object.
+// The settings changed to what suits judges that will look through a depth camera (docs/guide/camera.md), trained by so
+// many views of each object.
 Settings trained_by_views(Settings settings, int views);
 
 }  // namespace spincat

@@ -145,7 +145,7 @@ int run_on_ranks(int argc, char** argv, const Launch& launch) {
   watch.reset();
   int code = 0;
   if (ranks->rank() == 0) {
-    TaskFarm farm(*ranks);  // its end waits for the others as long as they are heard
+    TaskFarm farm(*ranks, farm_policy());  // its end waits for the others as long as they are heard
     code = report_errors([&] { return run(argc, argv, farm); });
   } else {
     code = work_for_rank0(*ranks, launch);

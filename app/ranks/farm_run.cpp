@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
-#include <string_view>
 #include <utility>
 
 #include "app/terminal/messages.h"
@@ -30,9 +28,6 @@ FarmRun::FarmRun(TaskFarm& farm, const RunOptions& run) : farm_(farm), run_(run)
   const Placement placement = farm.placement();
   const int threads = thread_count(run.threads, placement);
   farm.use_threads(threads, run.threads);
-  if (const char* share = std::getenv("SPINCAT_SHARE"); share != nullptr && std::string_view(share) == "always") {
-    farm.always_broadcast();
-  }
   if (farm.ranks() > 1 && !run.quiet) {
     for (const std::string& warning : placement_warnings(threads, placement)) {
       message(warning);

@@ -118,6 +118,14 @@ Launch read_launch() {
   return launch;
 }
 
+FarmPolicy farm_policy() {
+  const char* share = std::getenv("SPINCAT_SHARE");
+  if (share == nullptr || std::string_view(share) != "always") {
+    return {};
+  }
+  return {.most_ranks_to_work_beside = 0, .gain_of_broadcast = 0.0, .counts_remote_tasks = true};
+}
+
 std::unique_ptr<Communicator> join_ranks(const Launch& launch) {
   if (launch.processes < 2) {
     return std::make_unique<SerialCommunicator>();

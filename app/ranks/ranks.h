@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "spincat/parallel/communicator.h"
+#include "spincat/parallel/task_farm.h"
 
 namespace spincat::app {
 
@@ -19,6 +20,10 @@ struct Launch {
 };
 
 Launch read_launch();
+
+// The usual one; with SPINCAT_SHARE=always rank 0 does nothing that another rank can do, broadcasts tables however
+// small they are, and tells what the others did: so small runs test what large ones do.
+FarmPolicy farm_policy();
 
 // Joins the ranks of this run: loads MPI where a launcher has started several processes, and only then. The end of
 // the communicator ends MPI. Throws RunError when there is no MPI for this launcher, or when MPI sees another number of

@@ -14,7 +14,8 @@
 #include "spincat/io/read_object.h"
 #include "spincat/parallel/task_farm.h"
 #include "spincat/prepare/as_cloud.h"
-#include "spincat/train/feature_table.h"
+#include "spincat/train/broadcast_table.h"
+#include "spincat/train/describe_dataset.h"
 #include "spincat/train/judge_trainer.h"
 #include "support/shapes.h"
 #include "support/temp_dir.h"
@@ -111,7 +112,7 @@ double cloud_rate(const Dataset& dataset, const Settings& settings) {
   const std::vector<std::uint32_t> labels = table.object_labels();
   const Split split = stratified_splits(labels, 1, 0.5, 1)[0];
   LocalFarm farm(2);
-  const JudgeList judges = JudgeTrainer(table, settings.judge, farm.farm(), {}).train(split.train);
+  const JudgeList judges = JudgeTrainer(BroadcastTable(table, farm.farm()), settings.judge).train(split.train);
   double right = 0.0;
   for (const std::uint32_t i : split.test) {
     const Object cloud = as_cloud(read_object(dataset.objects[i].file), 2048, 0.01, derive_seed(9, i));

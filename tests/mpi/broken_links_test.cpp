@@ -65,12 +65,12 @@ TEST_P(BrokenLinks, WhileOtherRanksTrainCostNothingButTime) {
   const std::string small = "--copies 1 --points 256 --spin-points 32";
   ASSERT_EQ(alone("train boxes --threads 1 -o alone.spincat " + small).code, 0);
   const std::vector<std::tuple<int, farm::Tag, int>> failures = {
-      {0, farm::kJob, 3},              // two ranks were told to describe objects: the table
-      {0, farm::kJob, 5},              // the inner products
-      {0, farm::kTold, kObjects + 1},  // the first of these
-      {0, farm::kJob, 7},              // the trainings
-      {1, farm::kReady, 3},            // for the inner products
-      {1, farm::kReady, 4}};           // for the trainings
+      {0, farm::kJob, 3},                   // two ranks were told to describe objects: the table
+      {0, farm::kJob, 5},                   // the inner products
+      {0, farm::kBroadcast, kObjects + 1},  // the first of these
+      {0, farm::kJob, 7},                   // the trainings
+      {1, farm::kReady, 3},                 // for the inner products
+      {1, farm::kReady, 4}};                // for the trainings
   for (const auto& [rank, tag, call] : failures) {
     const std::string failure = fmt::format("{} MPI_Isend:{} {}", rank, static_cast<int>(tag), call);
     const RunResult result = train_with(failure, small, kShareAlways);

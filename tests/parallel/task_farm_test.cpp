@@ -390,7 +390,7 @@ class Introduced {
   explicit Introduced(const std::function<void(farm::Greeting& greeting)>& change) : own_(wires_, 0) {
     farm::Greeting greeting = farm::own_greeting();
     change(greeting);
-    ThreadCommunicator(wires_, 1).send(0, farm::kHello, std::make_shared<const std::string>(farm::pack(greeting)));
+    ThreadCommunicator(wires_, 1).send(0, farm::kHello, std::make_shared<const std::string>(pack(greeting)));
   }
   Communicator& communicator() { return own_; }
   Wires& wires() { return *wires_; }
@@ -507,7 +507,7 @@ TEST(TaskFarm, NothingPilesUpForASilentRank) {
     };
     farm.run(job);
     expect_squares(outcome, 2);
-    farm.share("square", job.context);
+    farm.broadcast("square", job.context);
   }
   EXPECT_TRUE(farm.report().ranks[1].lost);
   EXPECT_LT(wires->bytes_to(1), std::size_t{120} << 20);  // of 240 MB
@@ -515,15 +515,14 @@ TEST(TaskFarm, NothingPilesUpForASilentRank) {
 
 TEST(TaskFarm, WhoTakesNothingIsDoneWithoutUntilItDoes) {
   Ranks others(2);
-  TaskFarm farm(others.communicator());
-  farm.always_broadcast();
+  TaskFarm farm(others.communicator(), {.most_ranks_to_work_beside = 0, .counts_remote_tasks = true});
   const std::vector<int> numbers = numbers_up_to(20);
   for (const bool is_slow : {true, false}) {
     others.wires().slow_down(1, is_slow ? std::size_t{2} << 30 : 0);
     Outcome outcome;
     farm.run(squares(numbers, outcome));
     expect_squares(outcome, 20);
-    EXPECT_EQ(farm.report().elsewhere["square"], is_slow ? 0U : 20U);
+    EXPECT_EQ(farm.report().remote_tasks["square"], is_slow ? 0U : 20U);
     EXPECT_EQ(farm.report().ranks[1].refusal, "it does not take what it is sent");
   }
 }
@@ -578,7 +577,7 @@ TEST(TaskFarm, TellsAllRanksWhatAnyHasFound) {
       TaskFarm farm(others.communicator());
       farm.use_journal(&journal);
       Job job = squares(numbers, outcome);
-      job.tells_all = [](std::string_view result) { return result.empty() ? std::nullopt : std::optional(true); };
+      job.broadcasts = [](std::string_view result) { return result.empty() ? std::nullopt : std::optional(true); };
       farm.run(job);
       expect_squares(outcome, 100);
       EXPECT_EQ(farm.report().resumed, round == 0 ? 0U : 100U);
@@ -601,7 +600,7 @@ TEST(TaskFarm, TellsNobodyWhatIsNotWanted) {
     const std::vector<int> numbers = numbers_up_to(50);
     TaskFarm farm(others.communicator());
     Job job = squares(numbers, outcome);
-    job.tells_all = [](std::string_view) { return false; };
+    job.broadcasts = [](std::string_view) { return false; };
     farm.run(job);
     expect_squares(outcome, 50);
   }

@@ -1,4 +1,4 @@
-// Training shared out over ranks (threads that play them) gives what one thread gives.
+// Training on ranks (threads that play them) gives what one thread gives.
 #include "spincat/train/judge_trainer.h"
 
 #include <gtest/gtest.h>
@@ -17,6 +17,8 @@
 #include "spincat/geometry/random.h"
 #include "spincat/parallel/task_server.h"
 #include "spincat/rank_work.h"
+#include "spincat/train/broadcast_table.h"
+#include "spincat/train/describe_dataset.h"
 #include "spincat/train/feature_table.h"
 #include "spincat/train/train_tasks.h"
 #include "support/temp_dir.h"
@@ -55,8 +57,9 @@ std::vector<std::uint32_t> all_objects() {
 }
 
 CalibratedJudges train_on(TaskFarm& farm, const FeatureTable& table, const JudgeSettings& settings) {
-  JudgeTrainer trainer(table, settings, farm, kWorthBroadcasting);
-  EXPECT_TRUE(trainer.is_shared());
+  const BroadcastTable broadcast(table, farm, {}, kWorthBroadcasting);
+  EXPECT_TRUE(broadcast.is_broadcast());
+  JudgeTrainer trainer(broadcast, settings);
   return trainer.train_calibrated(all_objects(), 7);
 }
 
@@ -66,17 +69,14 @@ std::string packed(const Context& context) {
   return packer.take();
 }
 
-constexpr std::uint64_t kSharedAs = 7;
+constexpr std::uint64_t kBroadcastId = 7;
 
-std::string table_context(const FeatureTable& table) {
-  return packed([&](Packer& packer) { pack_table(table, kSharedAs, packer); });
+std::string table_context(const FeatureTable& table, const BroadcastRows& rows = {}) {
+  return packed([&](Packer& packer) { pack_table(table, kBroadcastId, rows, packer); });
 }
 
-std::string gram_context(std::uint64_t shared_as = kSharedAs) {
-  return packed([=](Packer& packer) {
-    pack_ticket({shared_as, 0}, packer);
-    packer.add(KernelKind::linear);
-  });
+std::string gram_context(std::uint64_t broadcast_id = kBroadcastId) {
+  return packed([=](Packer& packer) { pack_gram_context({broadcast_id, 0}, KernelKind::linear, packer); });
 }
 
 // Ranks that serve as the command's do.
@@ -133,7 +133,8 @@ TEST_P(Training, DoesNotDependOnRanksAndThreads) {
   const FeatureTable table = noisy_table(local);
   const JudgeSettings settings{kernel, default_c(kernel), true};
   LocalFarm one(1);
-  JudgeTrainer alone(table, settings, one.farm(), kWorthBroadcasting);
+  const BroadcastTable here(table, one.farm(), {}, kWorthBroadcasting);
+  JudgeTrainer alone(here, settings);
   const auto [judges, calibration] = alone.train_calibrated(all_objects(), 7);
   ASSERT_EQ(judges.size(), 3U);
   EXPECT_NE(calibration.slope, Calibration{}.slope);
@@ -154,12 +155,13 @@ TEST_P(Training, DoesNotDependOnRanksAndThreads) {
 
 // Ranks that were told the features as they came need no table, and one that was not takes no part.
 TEST(Training, RanksUseTheRowsTheyKept) {
-  FeatureTable table = noisy_table(false);
+  const FeatureTable table = noisy_table(false);
+  BroadcastRows rows{1, {}};
   for (std::uint32_t i = 0; i < 30; ++i) {
-    table.described_as.push_back(2 * i + 1);  // every other file could not be read
+    rows.objects.push_back(2 * i + 1);  // every other file could not be read
   }
   RankState kept;
-  EXPECT_THROW(make_table_work(table_context(table), kept), RunError);
+  EXPECT_THROW(make_table_work(table_context(table, rows), kept), RunError);
   EXPECT_THROW(make_gram_work(gram_context(), kept), RunError);
   kept.rows.emplace(60, 2);
   for (std::uint32_t i = 0; i < 30; ++i) {
@@ -167,13 +169,13 @@ TEST(Training, RanksUseTheRowsTheyKept) {
     for (std::uint32_t copy = 0; copy < 2; ++copy) {
       values.emplace_back(table.features_of(i, copy));
     }
-    kept.rows->put(table.described_as[i], values);
+    kept.rows->put(rows.objects[i], values);
   }
-  make_table_work(table_context(table), kept);
+  make_table_work(table_context(table, rows), kept);
   EXPECT_EQ(kept.table.features, table.features);
   EXPECT_EQ(kept.table.object_labels(), table.object_labels());
   EXPECT_FALSE(kept.rows);
-  EXPECT_THROW(make_gram_work(gram_context(kSharedAs + 1), kept), RunError);  // it has missed another sharing
+  EXPECT_THROW(make_gram_work(gram_context(kBroadcastId + 1), kept), RunError);  // it has missed another broadcast
   EXPECT_NO_THROW(make_gram_work(gram_context(), kept));
 }
 
@@ -185,16 +187,19 @@ TEST(Training, RanksKeepATableForAnotherTrainer) {
   ServingRanks ranks(kRanks);
   {
     TaskFarm farm(ranks.communicator());
-    const FeatureTable table =
-        describe_dataset(read_dataset({dir / "shapes"}), test::tiny_settings(), {.farm = &farm}, kWorthBroadcasting);
-    ASSERT_EQ(table.described_as.size(), 12U);
+    BroadcastRows rows;
+    const FeatureTable table = describe_dataset(read_dataset({dir / "shapes"}), test::tiny_settings(), {.farm = &farm},
+                                                kWorthBroadcasting, rows);
+    ASSERT_EQ(rows.objects.size(), 12U);
     std::vector<std::uint32_t> objects(12);
     std::iota(objects.begin(), objects.end(), 0U);
     for (const double c : {3.0, 300.0}) {
       const JudgeSettings settings{KernelKind::linear, c, true};
-      JudgeTrainer trainer(table, settings, farm, kWorthBroadcasting);
+      const BroadcastTable broadcast(table, farm, rows, kWorthBroadcasting);
+      JudgeTrainer trainer(broadcast, settings);
       LocalFarm one(1);
-      JudgeTrainer alone(table, settings, one.farm(), kWorthBroadcasting);
+      const BroadcastTable here(table, one.farm(), {}, kWorthBroadcasting);
+      JudgeTrainer alone(here, settings);
       EXPECT_EQ(trainer.train(objects).weights, alone.train(objects).weights);
     }
   }
@@ -207,8 +212,9 @@ TEST(Training, TinyTablesStayHere) {
   const FeatureTable table = noisy_table(false);
   ServingRanks ranks(2);
   TaskFarm farm(ranks.communicator());
-  JudgeTrainer trainer(table, {}, farm, {});
-  EXPECT_FALSE(trainer.is_shared());
+  const BroadcastTable here(table, farm);
+  EXPECT_FALSE(here.is_broadcast());
+  JudgeTrainer trainer(here, {});
   trainer.train(all_objects());
   EXPECT_EQ(farm.report().seconds, 0.0);
 }
@@ -223,7 +229,8 @@ TEST(Trials, AreTheSameFromWhatARankKeeps) {
                           std::vector<std::string>(30), {}, {}};
   const Settings settings = preset("default");
   LocalFarm one(1);
-  JudgeTrainer trainer(data.table, settings.judge, one.farm(), {});
+  const BroadcastTable here(data.table, one.farm());
+  JudgeTrainer trainer(here, settings.judge);
   Split split;
   for (std::uint32_t i = 0; i < 30; ++i) {
     (i % 4 == 0 ? split.test : split.train).push_back(i);
@@ -235,7 +242,7 @@ TEST(Trials, AreTheSameFromWhatARankKeeps) {
   RankState kept;
   make_table_work(table_context(data.table), kept);
   const std::string trials = packed([&](Packer& packer) {
-    pack_trials(trial_data(data), {kSharedAs, 1}, settings, true, packer);
+    pack_trials(trial_data(data), {kBroadcastId, 1}, settings, true, packer);
   });
   const RankWork gram = make_gram_work(gram_context(), kept);
   const std::vector<GramTask> strips = gram_tasks(data.table, KernelKind::linear);
@@ -245,7 +252,7 @@ TEST(Trials, AreTheSameFromWhatARankKeeps) {
   }
   EXPECT_EQ(kept.gram.blocks[0], trainer.gram().blocks[0]);
   const Work work = make_trial_work(trials, kept);
-  const Trial found = unpack_trial(work(pack(split)), 3);
+  const Trial found = unpack_trial(work(pack(split)));
   EXPECT_EQ(found.confusion, expected.confusion);
   EXPECT_EQ(found.named, expected.named);
   EXPECT_EQ(found.right, expected.right);

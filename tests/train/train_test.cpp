@@ -20,7 +20,8 @@
 #include "spincat/io/read_object.h"
 #include "spincat/parallel/task_farm.h"
 #include "spincat/prepare/as_cloud.h"
-#include "spincat/train/feature_table.h"
+#include "spincat/train/broadcast_table.h"
+#include "spincat/train/describe_dataset.h"
 #include "spincat/train/judge_trainer.h"
 #include "support/copies.h"
 #include "support/expect_error.h"
@@ -428,7 +429,7 @@ TEST(TrainJudges, TestObjectsDoNotInfluenceTheCodebook) {
   }
   const auto trained = [&] {
     LocalFarm farm(2);
-    return JudgeTrainer(table, settings.judge, farm.farm(), {}).train(learned);
+    return JudgeTrainer(BroadcastTable(table, farm.farm()), settings.judge).train(learned);
   };
   const JudgeList before = trained();
   EXPECT_EQ(before.codebook.words.rows(), 8);

@@ -11,13 +11,13 @@
 
 namespace spincat {
 
-Classification classify(const Model& by, const Object& object, const EncodePrepared& elsewhere) {
+Classification classify(const Model& by, const Object& object, const EncodePrepared& encoder) {
   const ModelData& model = by.data();
   Classification result;
   result.kind_mismatch = kind_mismatch(kind_of(object), model.kinds, model.settings.trained_for);
   const std::optional<Object> shown = shown_instead(object, model.settings);
   const FeatureVector features =
-      describe(shown ? *shown : object, model.settings, points_seed(model.settings), &result.seconds, elsewhere);
+      describe(shown ? *shown : object, model.settings, points_seed(model.settings), &result.seconds, encoder);
   if (features.values.size() != model.feature_length()) {
     throw InputError(
         fmt::format("gives {} features where the model expects {}", features.values.size(), model.feature_length()));
@@ -31,11 +31,11 @@ Classification classify(const Model& by, const Object& object, const EncodePrepa
 }
 
 Classification classify_file(const Model& model, const std::filesystem::path& file, const ReadLimits& limits,
-                             const EncodePrepared& elsewhere) {
+                             const EncodePrepared& encoder) {
   Stopwatch watch;
   const Object object = read_object(file, limits);
   const double read = watch.lap();
-  Classification result = naming_file(file, [&] { return classify(model, object, elsewhere); });
+  Classification result = naming_file(file, [&] { return classify(model, object, encoder); });
   result.seconds.read = read;
   return result;
 }

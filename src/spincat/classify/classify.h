@@ -25,13 +25,13 @@ struct Classification {
   StageSeconds seconds;
 };
 
-// Prepares, describes and judges an object exactly as training did, `elsewhere` as in describe(). Deterministic. Throws
+// Prepares, describes and judges an object exactly as training did, `encoder` as in describe(). Deterministic. Throws
 // InputError (without a file name) when the object has no extent or does not fit the model.
-Classification classify(const Model& model, const Object& object, const EncodePrepared& elsewhere = {});
+Classification classify(const Model& model, const Object& object, const EncodePrepared& encoder = {});
 
 // The same for an object in a file; what is thrown names the file.
 Classification classify_file(const Model& model, const std::filesystem::path& file, const ReadLimits& limits = {},
-                             const EncodePrepared& elsewhere = {});
+                             const EncodePrepared& encoder = {});
 
 // What became of one file.
 struct Answer {

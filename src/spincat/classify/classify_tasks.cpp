@@ -16,12 +16,20 @@
 #include "spincat/parallel/packing.h"
 
 namespace spincat {
+
+// All but the ballot. The margins are all there is to that, and come first: the rest is counted again.
+void fields(auto& archive, MessageOf<Classification> auto& classification) {
+  auto& [ballot, confidence, kind_mismatch, seconds] = classification;  // does not compile when a member is forgotten
+  static_cast<void>(ballot);
+  archive(confidence, kind_mismatch, seconds);
+}
+
 namespace {
 
 Answer answer_for(const Model& model, const std::filesystem::path& file, const ReadLimits& limits,
-                  const EncodePrepared& elsewhere = {}) {
+                  const EncodePrepared& encoder = {}) {
   try {
-    return {classify_file(model, file, limits, elsewhere), {}};
+    return {classify_file(model, file, limits, encoder), {}};
   } catch (const std::bad_alloc&) {
     return {{}, file.string() + ": not enough memory for it"};
   } catch (const Error& error) {
@@ -31,32 +39,36 @@ Answer answer_for(const Model& model, const std::filesystem::path& file, const R
   }
 }
 
-// The margins are all there is to a ballot: the rest is counted again.
-std::string pack(const Answer& answer) {
+struct ClassifyContext {
+  ReadLimits limits;
+  std::string model;  // its file
+};
+
+void fields(auto& archive, MessageOf<ClassifyContext> auto& context) {
+  auto& [limits, model] = context;
+  archive(limits, model);
+}
+
+std::string pack_answer(const Answer& answer) {
   Packer packer;
-  packer.add(std::string_view(answer.error));
+  packer(answer.error);
   if (answer.classification) {
     std::vector<float> margins;
     for (const Vote& vote : answer.classification->ballot.votes) {
       margins.push_back(vote.margin);
     }
-    packer.add(std::span<const float>(margins)).add(answer.classification->confidence);
-    packer.add(std::string_view(answer.classification->kind_mismatch));
-    pack_seconds(packer, answer.classification->seconds);
+    packer(margins, *answer.classification);
   }
   return packer.take();
 }
 
 Answer unpack_answer(std::string_view bytes, std::size_t categories) {
-  Unpacker fields(bytes);
-  Answer answer;
-  answer.error = fields.get_text();
-  if (!fields.empty()) {
-    Classification& c = answer.classification.emplace();
-    c.ballot = count_votes(static_cast<std::uint32_t>(categories), fields.get_values<float>());
-    c.confidence = fields.get<double>();
-    c.kind_mismatch = fields.get_text();
-    c.seconds = unpack_seconds(fields);
+  Unpacker unpacker(bytes);
+  Answer answer{{}, unpacker.next<std::string>()};
+  if (!unpacker.empty()) {
+    const auto margins = unpacker.next<std::vector<float>>();
+    unpacker(answer.classification.emplace());
+    answer.classification->ballot = count_votes(static_cast<std::uint32_t>(categories), margins);
   }
   return answer;
 }
@@ -64,21 +76,21 @@ Answer unpack_answer(std::string_view bytes, std::size_t categories) {
 }  // namespace
 
 Work make_classify_work(std::string_view context) {
-  Unpacker fields(context);
-  const ReadLimits limits = unpack_limits(fields);
-  const auto model = std::make_shared<const Model>(read_model(std::filesystem::path(fields.rest())));
-  return throwing_problems(
-      [model, limits](std::string_view file) { return pack(answer_for(*model, std::filesystem::path(file), limits)); });
+  const auto [limits, model_file] = unpack<ClassifyContext>(context);
+  const auto model = std::make_shared<const Model>(read_model(std::filesystem::path(model_file)));
+  return throwing_problems([model, limits = limits](std::string_view file) {
+    return pack_answer(answer_for(*model, std::filesystem::path(file), limits));
+  });
 }
 
 void classify_files(const Model& model, std::span<const std::filesystem::path> files, const Execution& execution,
                     const std::function<void(std::size_t i, const Answer& answer)>& deliver) {
   const FarmExecution run(execution);
   const TaskFarm::Tick tick = run.ticking("naming objects", files.size());
-  if (shares_out_points(model.settings(), run.split)) {
+  if (spreads_points(model.settings(), run.split)) {
     for (std::size_t i = 0; i < files.size(); ++i) {
-      const EncodePrepared elsewhere = encode_on(*run.farm, model.settings(), run.split, [&](std::size_t) { tick(i); });
-      deliver(i, answer_for(model, files[i], run.limits, elsewhere));
+      const EncodePrepared encoder = encode_on(*run.farm, model.settings(), run.split, [&](std::size_t) { tick(i); });
+      deliver(i, answer_for(model, files[i], run.limits, encoder));
     }
     tick(files.size());
     return;
@@ -86,11 +98,10 @@ void classify_files(const Model& model, std::span<const std::filesystem::path> f
   Job tasks;
   tasks.kind = kClassifyTasks;
   tasks.stays_here = model.file().empty();
-  tasks.context = [&](Packer& packer) {
-    pack_limits(packer, run.limits);
-    packer.add_rest(model.file().string());
+  tasks.context = [&](Packer& packer) { packer(ClassifyContext{run.limits, model.file().string()}); };
+  tasks.work = [&](std::string_view file) {
+    return pack_answer(answer_for(model, std::filesystem::path(file), run.limits));
   };
-  tasks.work = [&](std::string_view file) { return pack(answer_for(model, std::filesystem::path(file), run.limits)); };
   tasks.is_worth_keeping = has_no_problem;
   tasks.tasks = files.size();
   tasks.task = [&](std::size_t i) { return files[i].string(); };

@@ -16,29 +16,38 @@
 namespace spincat {
 namespace {
 
-constexpr std::size_t kTasksPerThread = 64;               // so that the last tasks keep nobody waiting for long
-constexpr std::size_t kMostBytes = std::size_t{8} << 20;  // of a task's images
-constexpr std::size_t kBlocksAtOnce = 16;                 // of images that are encoded where they are made
-
-// What other ranks need of an object.
+// What other ranks have of an object.
 struct OwnedObject {
   OrientedPoints surface;
   OrientedPoints spin_points;
   SpinImageParams params;
 };
 
-void pack(const DenseObject& object, Packer& packer) {
-  pack_params(packer, object.params);
-  pack_points(packer, object.surface);
-  pack_points(packer, object.spin_points);
+template <class T>
+concept PointsToSpin = MessageOf<T, DenseObject> || MessageOf<T, OwnedObject>;
+
+}  // namespace
+
+void fields(auto& archive, PointsToSpin auto& object) {
+  auto& [surface, spin_points, params] = object;  // does not compile when a member is forgotten
+  archive(surface, spin_points, params);
 }
 
-OwnedObject unpack_object(Unpacker& fields) {
-  OwnedObject object;
-  object.params = unpack_params(fields);
-  object.surface = unpack_points(fields);
-  object.spin_points = unpack_points(fields);
-  return object;
+namespace {
+
+constexpr std::size_t kTasksPerThread = 64;               // so that the last tasks keep nobody waiting for long
+constexpr std::size_t kMostBytes = std::size_t{8} << 20;  // of a task's images
+constexpr std::size_t kBlocksAtOnce = 16;                 // of images that are encoded where they are made
+
+// Spin points whose images are one task: `first` to `end` - 1.
+struct Run {
+  std::uint64_t first = 0;
+  std::uint64_t end = 0;
+};
+
+void fields(auto& archive, MessageOf<Run> auto& run) {
+  auto& [first, end] = run;
+  archive(first, end);
 }
 
 // Runs of spin points, each a whole subtree of leaves.
@@ -52,29 +61,14 @@ struct Runs {
   }
 
   std::size_t count() const { return (spin_points + length - 1) / length; }
-  std::string task(std::size_t i) const {
-    return Packer()
-        .add(static_cast<std::uint64_t>(i * length))
-        .add(static_cast<std::uint64_t>(std::min(spin_points, (i + 1) * length)))
-        .take();
-  }
+  std::string task(std::size_t i) const { return pack(Run{i * length, std::min(spin_points, (i + 1) * length)}); }
 
   std::size_t spin_points;
   std::size_t length = kLeafPoints;
 };
 
-struct Run {
-  explicit Run(std::string_view task) {
-    Unpacker fields(task);
-    first = fields.get<std::uint64_t>();
-    end = fields.get<std::uint64_t>();
-  }
-  std::size_t first;
-  std::size_t end;
-};
-
 std::string images_of(const SpinImageMaker& maker, const OrientedPoints& spin_points, std::string_view task) {
-  const Run run(task);
+  const auto run = unpack<Run>(task);
   std::string bytes((run.end - run.first) * maker.shape().size() * sizeof(float), '\0');
   maker.make(spin_points, run.first, {reinterpret_cast<float*>(bytes.data()), bytes.size() / sizeof(float)});
   return bytes;
@@ -82,7 +76,7 @@ std::string images_of(const SpinImageMaker& maker, const OrientedPoints& spin_po
 
 std::string sums_of(const SpinImageMaker& maker, const OrientedPoints& spin_points,
                     const Encoding::ObjectSums& object_sums, std::string_view task) {
-  const Run run(task);
+  const auto run = unpack<Run>(task);
   BlockSums sums(object_sums);
   std::vector<SpinImageBlock> blocks;
   for (std::size_t first = run.first; first < run.end;) {
@@ -117,13 +111,13 @@ std::span<const float> as_floats(const std::string& bytes) {
 
 using ConsumeImages = std::function<void(std::size_t first, std::span<const float> images)>;
 
-void share_out_images(TaskFarm& farm, const DenseObject& object, bool in_journal, const ConsumeImages& consume,
-                      const TaskFarm::Tick& tick) {
+void make_images(TaskFarm& farm, const DenseObject& object, bool in_journal, const ConsumeImages& consume,
+                 const TaskFarm::Tick& tick) {
   const SpinImageMaker maker(object.surface, object.params);
   const Runs runs(object, farm.threads_everywhere());
   Job job;
   job.kind = kImagesTasks;
-  job.context = [&](Packer& packer) { pack(object, packer); };
+  job.context = [&](Packer& packer) { packer(object); };
   job.work = [&](std::string_view task) { return images_of(maker, object.spin_points, task); };
   job.tasks = runs.count();
   job.task = [&](std::size_t i) { return runs.task(i); };
@@ -139,16 +133,15 @@ void share_out_images(TaskFarm& farm, const DenseObject& object, bool in_journal
 }  // namespace
 
 Work make_images_work(std::string_view context) {
-  Unpacker fields(context);
-  const auto object = std::make_shared<const OwnedObject>(unpack_object(fields));
+  const auto object = std::make_shared<const OwnedObject>(unpack<OwnedObject>(context));
   const auto maker = std::make_shared<const SpinImageMaker>(object->surface, object->params);
   return [object, maker](std::string_view task) { return images_of(*maker, object->spin_points, task); };
 }
 
 Work make_sums_work(std::string_view context) {
-  Unpacker fields(context);
-  const std::string_view encoding = fields.get_text();
-  const auto object = std::make_shared<const OwnedObject>(unpack_object(fields));
+  Unpacker unpacker(context);
+  const auto encoding = unpacker.next<std::string_view>();
+  const auto object = std::make_shared<const OwnedObject>(unpacker.next<OwnedObject>());
   const auto maker = std::make_shared<const SpinImageMaker>(object->surface, object->params);
   const std::shared_ptr<const Encoding::ObjectSums> sums =
       make_encoding(encoding)->begin(object->surface, object->spin_points, object->params);
@@ -158,7 +151,7 @@ Work make_sums_work(std::string_view context) {
 void make_spin_images(TaskFarm& farm, const DenseObject& object,
                       const std::function<void(std::size_t first, std::span<const float> images)>& consume,
                       const TaskFarm::Tick& tick) {
-  share_out_images(farm, object, true, consume, tick);
+  make_images(farm, object, true, consume, tick);
 }
 
 FeatureVector encode_object(TaskFarm& farm, const DenseObject& object, std::string_view encoding_name, WorkSplit split,
@@ -171,7 +164,7 @@ FeatureVector encode_object(TaskFarm& farm, const DenseObject& object, std::stri
     BlockSums sums(*object_sums);
     const auto add = [&](const SpinImageBlock& block) { sums.add(block); };
     // Not in the journal: gigabytes of images that nobody asked for, to save a feature vector.
-    share_out_images(
+    make_images(
         farm, object, false,
         [&](std::size_t first, std::span<const float> images) {
           for_each_block(first, images, object.params.shape(), add);
@@ -184,10 +177,7 @@ FeatureVector encode_object(TaskFarm& farm, const DenseObject& object, std::stri
   SumsTree sums;
   Job job;
   job.kind = kSumsTasks;
-  job.context = [&](Packer& packer) {
-    packer.add(encoding_name);
-    pack(object, packer);
-  };
+  job.context = [&](Packer& packer) { packer(encoding_name, object); };
   job.work = [&](std::string_view task) { return sums_of(maker, object.spin_points, *object_sums, task); };
   job.tasks = runs.count();
   job.task = [&](std::size_t i) { return runs.task(i); };

@@ -2,24 +2,36 @@
 
 #include <algorithm>
 #include <new>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
 #include "spincat/describe/packed_features.h"
 #include "spincat/describe/packed_limits.h"
+#include "spincat/describe/packed_settings.h"
 #include "spincat/describe/rank_problems.h"
 #include "spincat/describe/stopwatch.h"
 #include "spincat/describe/training_copies.h"
 #include "spincat/encode/encoding.h"
 #include "spincat/error.h"
 #include "spincat/io/read_object.h"
-#include "spincat/settings/settings_json.h"
 
 namespace spincat {
 namespace {
 
-// From so many spin points on, an object is worth sharing out by itself.
+// What all tasks need.
+struct DescribeContext {
+  int views = 1;
+  std::uint64_t rows_to_keep = 0;  // of so many objects; 0: none
+  ReadLimits limits;
+  Settings settings;
+};
+
+void fields(auto& archive, MessageOf<DescribeContext> auto& context) {
+  auto& [views, rows_to_keep, limits, settings] = context;
+  archive(views, rows_to_keep, limits, settings);
+}
+
+// From so many spin points on, an object is spread over ranks by itself.
 constexpr int kDenseSpinPoints = 8 * static_cast<int>(kSpinImageBlock * 8);
 
 // A RunError while reading says that the memory does not suffice for this object. Later ones are those of a farm.
@@ -37,7 +49,7 @@ Work describe_work(const Settings& settings, int rows, const ReadLimits& limits)
   };
 }
 
-// Objects one after the other: rank 0 prepares, the spin points are shared out.
+// Objects one after the other: rank 0 prepares, the spin points are spread over ranks.
 void describe_by_points(TaskFarm& farm, const DescribeJob& job, const DeliverDescribed& deliver,
                         const TaskFarm::Tick& tick) {
   std::size_t done = 0;
@@ -46,10 +58,10 @@ void describe_by_points(TaskFarm& farm, const DescribeJob& job, const DeliverDes
       tick(done);
     }
   };
-  const EncodePrepared elsewhere = encode_on(farm, job.settings, job.split, at_work);
+  const EncodePrepared encoder = encode_on(farm, job.settings, job.split, at_work);
   for (std::size_t i = 0; i < job.files; ++i) {
     Described one = describe_object([&] { return read_listed_object(job.file(i), job.limits); }, job.views,
-                                    describe_copies(job.settings, elsewhere));
+                                    describe_copies(job.settings, encoder));
     std::vector<std::vector<float>> numbers;
     std::vector<FeatureBytes> values;
     for (FeatureVector& features : one.features) {
@@ -98,6 +110,13 @@ Described describe_object(const std::function<Object()>& read, int rows, const D
   return result;
 }
 
+// All but the feature vectors, which follow.
+void fields(auto& archive, MessageOf<Described> auto& described) {
+  auto& [features, problem, kind, seconds] = described;  // does not compile when a member is forgotten
+  static_cast<void>(features);
+  archive(problem, kind, seconds);
+}
+
 std::string pack(const Described& described) {
   constexpr std::size_t kBesidesValues = 200;  // of a feature vector with a few blocks
   std::size_t size = described.problem.size() + kBesidesValues;
@@ -106,8 +125,7 @@ std::string pack(const Described& described) {
   }
   Packer packer;
   packer.reserve(size);
-  packer.add(std::string_view(described.problem)).add(described.kind);
-  pack_seconds(packer, described.seconds);
+  packer(described);
   for (const FeatureVector& features : described.features) {
     pack_features(packer, features);
   }
@@ -117,9 +135,7 @@ std::string pack(const Described& described) {
 PackedDescribed view_described(std::string_view bytes) {
   Unpacker fields(bytes);
   PackedDescribed described;
-  described.head.problem = fields.get_text();
-  described.head.kind = fields.get<ObjectKind>();
-  described.head.seconds = unpack_seconds(fields);
+  fields(described.head);
   while (!fields.empty()) {
     auto [head, values] = view_features(fields);
     described.head.features.push_back(std::move(head));
@@ -138,7 +154,7 @@ Described unpack_described(std::string_view bytes) {
   return described;
 }
 
-bool shares_out_points(const Settings& settings, WorkSplit split) {
+bool spreads_points(const Settings& settings, WorkSplit split) {
   const bool dense = settings.prepare.spin_points >= kDenseSpinPoints && make_encoding(settings.encoding)->pools();
   return dense || split == WorkSplit::return_images;
 }
@@ -152,11 +168,7 @@ EncodePrepared encode_on(TaskFarm& farm, const Settings& settings, WorkSplit spl
 
 RankWork make_describe_work(std::string_view context, std::optional<TableRows>& rows,
                             const std::function<void()>& make_room) {
-  Unpacker fields(context);
-  const int views = fields.get<int>();
-  const auto rows_to_keep = fields.get<std::uint64_t>();
-  const ReadLimits limits = unpack_limits(fields);
-  const Settings settings = settings_from_json(nlohmann::json::parse(fields.get_text()));
+  const auto [views, rows_to_keep, limits, settings] = unpack<DescribeContext>(context);
   RankWork result = throwing_problems(describe_work(settings, views, limits));
   if (rows_to_keep > 0) {
     make_room();
@@ -173,19 +185,17 @@ RankWork make_describe_work(std::string_view context, std::optional<TableRows>& 
 
 void describe_files(TaskFarm& farm, const DescribeJob& job, const DeliverDescribed& deliver,
                     const TaskFarm::Tick& tick) {
-  if (shares_out_points(job.settings, job.split)) {
+  if (spreads_points(job.settings, job.split)) {
     describe_by_points(farm, job, deliver, tick);
     return;
   }
   Job tasks;
   tasks.kind = kDescribeTasks;
   tasks.context = [&](Packer& packer) {
-    const std::uint64_t rows_to_keep = job.keeps_rows ? job.files : 0;
-    pack_limits(packer.add(job.views).add(rows_to_keep), job.limits);
-    packer.add(settings_to_json(job.settings).dump());
+    packer(DescribeContext{job.views, job.keeps_rows ? job.files : 0, job.limits, job.settings});
   };
   if (job.keeps_rows) {
-    tasks.tells_all = [&](std::string_view result) -> std::optional<bool> {
+    tasks.broadcasts = [&](std::string_view result) -> std::optional<bool> {
       const std::vector<FeatureBytes> values = view_described(result).values;
       if (values.empty()) {
         return std::nullopt;

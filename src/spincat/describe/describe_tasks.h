@@ -80,7 +80,7 @@ void describe_files(TaskFarm& farm, const DescribeJob& job, const DeliverDescrib
 
 // Whether objects are dealt with one after the other, each shared out by its spin points: where they have many, or
 // where the split asks for it.
-bool shares_out_points(const Settings& settings, WorkSplit split);
+bool spreads_points(const Settings& settings, WorkSplit split);
 
 // For describe(): shares out the spin points of a prepared object. What is referred to must outlive the result.
 EncodePrepared encode_on(TaskFarm& farm, const Settings& settings, WorkSplit split, const TaskFarm::Tick& tick);

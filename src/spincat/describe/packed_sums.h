@@ -1,28 +1,29 @@
 // Sums of spin images as bytes, for other ranks. Private: not installed.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "spincat/encode/block_sums.h"
 #include "spincat/parallel/packing.h"
 
 namespace spincat {
 
+void fields(auto& archive, MessageOf<SumsNode> auto& node) {
+  auto& [level, sums] = node;  // does not compile when a member is forgotten
+  archive(level, sums);
+}
+
 inline std::string pack_sums(const SumsTree& sums) {
-  Packer packer;
-  for (const SumsNode& node : sums.nodes()) {
-    packer.add(static_cast<std::uint64_t>(node.level)).add(std::span<const double>(node.sums));
-  }
-  return packer.take();
+  return pack(sums.nodes());
 }
 
 // Adds what was packed to the right of what `sums` has.
 inline void unpack_sums(std::string_view bytes, SumsTree& sums) {
-  for (Unpacker fields(bytes); !fields.empty();) {
-    const auto level = static_cast<std::size_t>(fields.get<std::uint64_t>());
-    sums.add({level, fields.get_values<double>()});
+  for (SumsNode& node : unpack<std::vector<SumsNode>>(bytes)) {
+    sums.add(std::move(node));
   }
 }
 

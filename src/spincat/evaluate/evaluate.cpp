@@ -8,10 +8,11 @@
 #include "spincat/dataset/parts.h"
 #include "spincat/dataset/splits.h"
 #include "spincat/describe/stopwatch.h"
-#include "spincat/evaluate/evaluation_data.h"
+#include "spincat/evaluate/evaluation_steps.h"
 #include "spincat/evaluate/roc.h"
 #include "spincat/evaluate/trial.h"
 #include "spincat/parallel/farm_execution.h"
+#include "spincat/train/broadcast_table.h"
 #include "spincat/train/judge_trainer.h"
 #include "spincat/train/worth_broadcasting.h"
 
@@ -69,30 +70,29 @@ std::vector<Split> splits_of(const EvaluationData& data, const Settings& setting
 }
 
 std::vector<Trial> run_trials(const EvaluationData& data, const std::vector<Split>& splits, const Settings& settings,
-                              const EvaluateOptions& options, const Execution& execution) {
+                              const EvaluateOptions& options, const Execution& execution, const BroadcastRows& rows) {
   const bool confidence = options.calibrates();
   const FarmExecution run(execution);
   const std::size_t trainings = count_trainings(splits.size(), confidence);
-  JudgeTrainer trainer(data.table, settings.judge, *run.farm, trainings, run.progress);
+  const BroadcastTable broadcast(data.table, *run.farm, rows, trainings);
+  JudgeTrainer trainer(broadcast, settings.judge, run.progress);
   std::vector<Trial> trials;
-  if (splits.size() == 1) {  // shared out by its judges
+  if (splits.size() == 1) {  // its judges are the tasks
     trials.push_back(run_trial(trial_data(data), trainer, splits[0], settings, confidence));
     return trials;
   }
   Job job;
   job.kind = kTrialTasks;
-  job.stays_here = !trainer.is_shared();
+  job.stays_here = !broadcast.is_broadcast();
   job.context = [&](Packer& packer) {
-    pack_trials(trial_data(data), trainer.expected(), settings, confidence, packer);
+    pack_trials(trial_data(data), broadcast.ticket(trainer.gram()), settings, confidence, packer);
   };
   job.identity = [&](Packer& packer) { pack_trials_identity(trial_data(data), settings, confidence, packer); };
   job.work = trial_work(trial_data(data), trainer.gram(), settings, confidence);
   job.tasks = splits.size();
   job.task = [&](std::size_t i) { return pack(splits[i]); };
-  job.deliver = [&](std::size_t, const std::string& result) {
-    trials.push_back(unpack_trial(result, data.table.categories.size()));
-  };
-  trainer.farm().run(job, run.ticking("judging splits", splits.size()));
+  job.deliver = [&](std::size_t, const std::string& result) { trials.push_back(unpack_trial(result)); };
+  run.farm->run(job, run.ticking("judging splits", splits.size()));
   return trials;
 }
 
@@ -285,6 +285,11 @@ std::vector<TestedObject> named_objects(const EvaluationData& data, std::span<co
 
 Evaluation judge_evaluation(const EvaluationData& data, const Settings& settings, const EvaluateOptions& options,
                             const Execution& execution) {
+  return judge_evaluation(data, settings, options, execution, BroadcastRows{});
+}
+
+Evaluation judge_evaluation(const EvaluationData& data, const Settings& settings, const EvaluateOptions& options,
+                            const Execution& execution, const BroadcastRows& broadcast) {
   options.validate();
   Stopwatch watch;
   const std::vector<Split> splits = splits_of(data, settings, options);
@@ -294,7 +299,7 @@ Evaluation judge_evaluation(const EvaluationData& data, const Settings& settings
   if (result.protocol == Protocol::splits) {
     result.split_seeds = seeds_of(options, settings);
   }
-  const std::vector<Trial> trials = run_trials(data, splits, settings, options, execution);
+  const std::vector<Trial> trials = run_trials(data, splits, settings, options, execution, broadcast);
   const std::size_t n = result.categories.size();
   result.confusion.assign(n, std::vector<std::uint32_t>(n, 0));
   for (const Trial& trial : trials) {
@@ -314,12 +319,16 @@ Evaluation judge_evaluation(const EvaluationData& data, const Settings& settings
 
 Evaluation evaluate(const Dataset& dataset, const Settings& settings, const EvaluateOptions& options,
                     const Execution& execution) {
-  return judge_evaluation(describe_for_evaluation(dataset, settings, options, execution), settings, options, execution);
+  BroadcastRows broadcast;
+  const EvaluationData data = describe_for_evaluation(dataset, settings, options, execution, broadcast);
+  return judge_evaluation(data, settings, options, execution, broadcast);
 }
 
 Evaluation evaluate_across(const Dataset& train, const Dataset& test, const Settings& settings,
                            const EvaluateOptions& options, const Execution& execution) {
-  return judge_evaluation(describe_across(train, test, settings, options, execution), settings, options, execution);
+  BroadcastRows broadcast;
+  const EvaluationData data = describe_across(train, test, settings, options, execution, broadcast);
+  return judge_evaluation(data, settings, options, execution, broadcast);
 }
 
 }  // namespace spincat

@@ -9,7 +9,9 @@
 #include "spincat/dataset/splits.h"
 #include "spincat/describe/stopwatch.h"
 #include "spincat/error.h"
-#include "spincat/evaluate/evaluation_data.h"
+#include "spincat/evaluate/evaluate.h"
+#include "spincat/evaluate/evaluation_steps.h"
+#include "spincat/train/describe_dataset.h"
 #include "spincat/train/worth_broadcasting.h"
 
 namespace spincat {
@@ -36,10 +38,10 @@ std::size_t splits_in_sight(const EvaluateOptions& options, std::size_t objects)
 
 // What both kinds have in common: the objects to learn from, and the unknown objects.
 EvaluationData describe_known(const Dataset& dataset, std::size_t splits, const Settings& settings,
-                              const EvaluateOptions& options, const Execution& execution) {
+                              const EvaluateOptions& options, const Execution& execution, BroadcastRows& broadcast) {
   EvaluationData data;
   data.dataset = dataset.name;
-  data.table = describe_dataset(dataset, settings, execution, count_trainings(splits, options.calibrates()));
+  data.table = describe_dataset(dataset, settings, execution, count_trainings(splits, options.calibrates()), broadcast);
   std::vector<DatasetObject> unknown_objects;
   for (const std::filesystem::path& file : options.unknown_objects) {
     unknown_objects.push_back({file, 0, ""});
@@ -61,13 +63,19 @@ void EvaluateOptions::validate() const {
 
 EvaluationData describe_for_evaluation(const Dataset& dataset, const Settings& settings, const EvaluateOptions& options,
                                        const Execution& execution) {
+  BroadcastRows broadcast;
+  return describe_for_evaluation(dataset, settings, options, execution, broadcast);
+}
+
+EvaluationData describe_for_evaluation(const Dataset& dataset, const Settings& settings, const EvaluateOptions& options,
+                                       const Execution& execution, BroadcastRows& broadcast) {
   options.validate();
   check_form(settings, options);
   Stopwatch watch;
   std::vector<LeftOutCategory> left_out;
   const Dataset part = with_enough_objects(dataset, options.fewest_objects, left_out);
   EvaluationData data =
-      describe_known(part, splits_in_sight(options, part.objects.size()), settings, options, execution);
+      describe_known(part, splits_in_sight(options, part.objects.size()), settings, options, execution, broadcast);
   data.left_out = std::move(left_out);
   if (options.test.form != TestForm::as_is) {
     data.tested = describe_tested(data.table.objects, feature_length(data), settings, options.test, execution);
@@ -78,6 +86,12 @@ EvaluationData describe_for_evaluation(const Dataset& dataset, const Settings& s
 
 EvaluationData describe_across(const Dataset& train, const Dataset& test, const Settings& settings,
                                const EvaluateOptions& options, const Execution& execution) {
+  BroadcastRows broadcast;
+  return describe_across(train, test, settings, options, execution, broadcast);
+}
+
+EvaluationData describe_across(const Dataset& train, const Dataset& test, const Settings& settings,
+                               const EvaluateOptions& options, const Execution& execution, BroadcastRows& broadcast) {
   options.validate();
   check_form(settings, options);
   Stopwatch watch;
@@ -87,7 +101,7 @@ EvaluationData describe_across(const Dataset& train, const Dataset& test, const 
   if (execution.strict && !tested.skipped.empty()) {
     throw InputError(tested.skipped.front().file.string(), tested.skipped.front().reason);
   }
-  EvaluationData data = describe_known(learned, 1, settings, options, execution);
+  EvaluationData data = describe_known(learned, 1, settings, options, execution, broadcast);
   data.test_dataset = tested.name;
   data.across = true;
   data.left_out = std::move(left_out);

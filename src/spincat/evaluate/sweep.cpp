@@ -8,7 +8,7 @@
 
 #include "spincat/dataset/parts.h"
 #include "spincat/error.h"
-#include "spincat/evaluate/evaluation_data.h"
+#include "spincat/evaluate/evaluation_steps.h"
 #include "spincat/evaluate/sweep_journal.h"
 #include "spincat/settings/setting_table.h"
 #include "spincat/settings/settings_json.h"
@@ -116,9 +116,10 @@ Sweep sweep(const Dataset& dataset, const SettingChoices& settings, const std::v
     }
   }
   while (!missing.empty()) {
-    // All points that share the features of the first one that is missing.
+    // All points that have the features of the first one that is missing.
     const std::string features = describing(settings_of[*missing.begin()]);
     std::optional<EvaluationData> data;
+    BroadcastRows broadcast;
     for (auto at = missing.begin(); at != missing.end();) {
       const Settings& now = settings_of[*at];
       if (describing(now) != features) {
@@ -126,9 +127,9 @@ Sweep sweep(const Dataset& dataset, const SettingChoices& settings, const std::v
         continue;
       }
       if (!data) {
-        data = describe_for_evaluation(dataset, now, options, execution);
+        data = describe_for_evaluation(dataset, now, options, execution, broadcast);
       }
-      const Evaluation found = judge_evaluation(*data, now, options, execution);
+      const Evaluation found = judge_evaluation(*data, now, options, execution, broadcast);
       journal.add({points[*at], found.mean_class_rate, found.overall_rate, found.seconds});
       at = missing.erase(at);
     }

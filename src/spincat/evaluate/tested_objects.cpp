@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <utility>
 #include <variant>
 
 #include "spincat/describe/describe_tasks.h"
 #include "spincat/describe/packed_limits.h"
+#include "spincat/describe/packed_settings.h"
 #include "spincat/describe/rank_problems.h"
 #include "spincat/error.h"
 #include "spincat/geometry/random.h"
@@ -19,7 +19,6 @@
 #include "spincat/parallel/farm_execution.h"
 #include "spincat/parallel/packing.h"
 #include "spincat/prepare/surface_samples.h"
-#include "spincat/settings/settings_json.h"
 
 namespace spincat {
 namespace {
@@ -94,6 +93,11 @@ void TestOptions::validate() const {
   }
 }
 
+void fields(auto& archive, MessageOf<TestOptions> auto& options) {
+  auto& [form, noise, cloud_points] = options;  // does not compile when a member is forgotten
+  archive(form, noise, cloud_points);
+}
+
 Object in_test_form(const Object& object, const TestOptions& options, std::uint64_t seed) {
   Random random(seed);
   switch (options.form) {
@@ -124,43 +128,44 @@ void check_all_described(const TestTable& tested) {
 
 // One object, in the form it is tested in.
 struct TestedTask {
-  std::uint64_t seed;
-  std::string_view file;
+  std::uint64_t seed = 0;
+  std::string file;
 };
 
-// How objects are shown and read.
-struct Showing {
+void fields(auto& archive, MessageOf<TestedTask> auto& task) {
+  auto& [seed, file] = task;
+  archive(seed, file);
+}
+
+// How objects are shown, read and described.
+struct TestedContext {
+  Settings settings;
   TestOptions options;
   ReadLimits limits;
 };
 
-Described describe_task(const TestedTask& task, const Settings& settings, const Showing& showing) {
+void fields(auto& archive, MessageOf<TestedContext> auto& context) {
+  auto& [settings, options, limits] = context;
+  archive(settings, options, limits);
+}
+
+Described describe_task(const TestedTask& task, const TestedContext& context) {
+  const Settings& settings = context.settings;
   const auto read = [&] {
-    return in_test_form(read_listed_object(std::filesystem::path(task.file), showing.limits), showing.options,
-                        task.seed);
+    const Object object = read_listed_object(std::filesystem::path(task.file), context.limits);
+    return in_test_form(object, context.options, task.seed);
   };
   return describe_object(read, settings.tested_rows(), describe_copies(settings));
 }
 
-Work tested_work(const Settings& settings, const Showing& showing) {
-  return [settings, showing](std::string_view bytes) {
-    Unpacker fields(bytes);
-    const auto seed = fields.get<std::uint64_t>();
-    return pack(describe_task({seed, fields.rest()}, settings, showing));
-  };
+Work tested_work(const TestedContext& context) {
+  return [context](std::string_view task) { return pack(describe_task(unpack<TestedTask>(task), context)); };
 }
 
 }  // namespace
 
 Work make_tested_work(std::string_view context) {
-  Unpacker fields(context);
-  const Settings settings = settings_from_json(nlohmann::json::parse(fields.get_text()));
-  Showing showing;
-  showing.options.form = fields.get<TestForm>();
-  showing.options.noise = fields.get<double>();
-  showing.options.cloud_points = fields.get<int>();
-  showing.limits = unpack_limits(fields);
-  return throwing_problems(tested_work(settings, showing));
+  return throwing_problems(tested_work(unpack<TestedContext>(context)));
 }
 
 TestTable describe_tested(std::span<const DatasetObject> objects, std::size_t feature_length, const Settings& settings,
@@ -175,14 +180,12 @@ TestTable describe_tested(std::span<const DatasetObject> objects, std::size_t fe
   const std::uint64_t stream = derive_seed(settings.seed, kTestFormPurpose);
   Job job;
   job.kind = kTestedTasks;
-  job.context = [&](Packer& packer) {
-    packer.add(settings_to_json(settings).dump()).add(options.form).add(options.noise).add(options.cloud_points);
-    pack_limits(packer, run.limits);
-  };
-  job.work = tested_work(settings, {options, run.limits});
+  const TestedContext context{settings, options, run.limits};
+  job.context = [&](Packer& packer) { packer(context); };
+  job.work = tested_work(context);
   job.is_worth_keeping = has_no_problem;
   job.tasks = objects.size();
-  job.task = [&](std::size_t i) { return Packer().add(derive_seed(stream, i)).take() + objects[i].file.string(); };
+  job.task = [&](std::size_t i) { return pack(TestedTask{derive_seed(stream, i), objects[i].file.string()}); };
   job.deliver = [&](std::size_t i, const std::string& result) {
     const Described described = unpack_described(result);
     table.seconds += described.seconds;

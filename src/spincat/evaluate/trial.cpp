@@ -1,76 +1,55 @@
 #include "spincat/evaluate/trial.h"
 
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <optional>
+#include <tuple>
 #include <utility>
 
+#include "spincat/describe/packed_matrix.h"
+#include "spincat/describe/packed_settings.h"
 #include "spincat/parallel/journal.h"
 #include "spincat/parallel/packing.h"
-#include "spincat/settings/settings_json.h"
+#include "spincat/train/packed_table.h"
 #include "spincat/train/table_familiarity.h"
 
 namespace spincat {
+
+void fields(auto& archive, MessageOf<Trial> auto& trial) {
+  auto& [confusion, by_views, named, right, wrong, unknown_objects] = trial;  // all of them
+  archive(confusion, by_views, named, right, wrong, unknown_objects);
+}
+
+// Not what only people look at.
+void fields(auto& archive, MessageOf<TestTable> auto& tested) {
+  auto& [objects, rows_per_object, features, problems, kinds, seconds] = tested;  // all of them
+  static_cast<void>(std::tie(kinds, seconds));
+  archive(objects, rows_per_object, features, problems);
+}
+
 namespace {
 
-void pack_tested(Packer& packer, const TestTable& tested) {
-  packer.add(static_cast<std::uint64_t>(tested.objects.size()));
-  packer.add(static_cast<std::uint64_t>(tested.features.cols())).add(tested.rows_per_object);
-  packer.add(std::span<const float>(tested.features.data(), static_cast<std::size_t>(tested.features.size())));
-  for (std::size_t i = 0; i < tested.objects.size(); ++i) {
-    packer.add(tested.objects[i].category).add(std::string_view(tested.problems[i]));
-  }
-}
+// What trials need besides the table.
+struct TrialContext {
+  Settings settings;
+  bool measure_confidence = false;
+  TestTable unknown_objects;
+  std::optional<TestTable> tested;
+};
 
-TestTable unpack_tested(Unpacker& fields) {
-  TestTable tested;
-  const auto objects = fields.get<std::uint64_t>();
-  const auto columns = fields.get<std::uint64_t>();
-  tested.rows_per_object = fields.get<std::uint32_t>();
-  const std::vector<float> features = fields.get_values<float>();
-  tested.features = Eigen::Map<const FeatureMatrix>(
-      features.data(), static_cast<Eigen::Index>(objects * tested.rows_per_object), static_cast<Eigen::Index>(columns));
-  for (std::uint64_t i = 0; i < objects; ++i) {
-    tested.objects.push_back({{}, fields.get<std::uint32_t>(), {}});
-    tested.problems.emplace_back(fields.get_text());
-  }
-  return tested;
-}
+// The same, not copied.
+struct TrialContextView {
+  const Settings& settings;
+  bool measure_confidence = false;
+  const TestTable& unknown_objects;
+  const TestTable* tested;
+};
 
-void pack_confusion(Packer& packer, const Confusion& confusion) {
-  for (const std::vector<std::uint32_t>& row : confusion) {
-    packer.add(std::span<const std::uint32_t>(row));
-  }
-}
+template <class T>
+concept TrialNeeds = MessageOf<T, TrialContext> || MessageOf<T, TrialContextView>;
 
-Confusion unpack_confusion(Unpacker& fields, std::size_t categories) {
-  Confusion confusion;
-  for (std::size_t i = 0; i < categories; ++i) {
-    confusion.push_back(fields.get_values<std::uint32_t>());
-  }
-  return confusion;
-}
-
-std::string pack(const Trial& trial) {
-  const auto& [confusion, by_views, named, right, wrong, unknown_objects] = trial;
-  Packer packer;
-  pack_confusion(packer, confusion);
-  packer.add(static_cast<std::uint64_t>(by_views.size()));
-  for (const Confusion& of : by_views) {
-    pack_confusion(packer, of);
-  }
-  packer.add(std::span<const std::uint32_t>(named));
-  packer.add(std::span<const double>(right)).add(std::span<const double>(wrong));
-  packer.add(std::span<const double>(unknown_objects));
-  return packer.take();
-}
-
-// But for the table.
-void pack_rest(const TrialData& data, const Settings& settings, bool measure_confidence, Packer& packer) {
-  packer.add(settings_to_json(settings).dump()).add(measure_confidence).add(data.tested != nullptr);
-  pack_tested(packer, data.unknown_objects);
-  if (data.tested != nullptr) {
-    pack_tested(packer, *data.tested);
-  }
+void fields(auto& archive, TrialNeeds auto& context) {
+  auto& [settings, measure_confidence, unknown_objects, tested] = context;
+  archive(settings, measure_confidence, unknown_objects, tested);
 }
 
 // What is tested: the objects of the table, or those of another one.
@@ -152,65 +131,39 @@ Trial run_trial(const TrialData& data, JudgeTrainer& trainer, const Split& split
   return trial;
 }
 
-std::string pack(const Split& split) {
-  const auto& [train, test] = split;
-  return Packer().add(std::span<const std::uint32_t>(train)).add(std::span<const std::uint32_t>(test)).take();
+Trial unpack_trial(std::string_view result) {
+  return unpack<Trial>(result);
 }
 
-Trial unpack_trial(std::string_view result, std::size_t categories) {
-  Unpacker fields(result);
-  Trial trial;
-  trial.confusion = unpack_confusion(fields, categories);
-  const auto by_views = fields.get<std::uint64_t>();
-  for (std::uint64_t i = 0; i < by_views; ++i) {
-    trial.by_views.push_back(unpack_confusion(fields, categories));
-  }
-  trial.named = fields.get_values<std::uint32_t>();
-  trial.right = fields.get_values<double>();
-  trial.wrong = fields.get_values<double>();
-  trial.unknown_objects = fields.get_values<double>();
-  return trial;
-}
-
-void pack_trials(const TrialData& data, const TableTicket& expected, const Settings& settings, bool measure_confidence,
+void pack_trials(const TrialData& data, const TableTicket& ticket, const Settings& settings, bool measure_confidence,
                  Packer& packer) {
-  pack_ticket(expected, packer);
-  pack_rest(data, settings, measure_confidence, packer);
+  packer(ticket, TrialContextView{settings, measure_confidence, data.unknown_objects, data.tested});
 }
 
 // The table by a hash of its features, and of its files nothing: they have done their part when they are described.
 void pack_trials_identity(const TrialData& data, const Settings& settings, bool measure_confidence, Packer& packer) {
   const FeatureTable& table = data.table;
-  const std::vector<std::uint32_t> labels = table.object_labels();
   const std::string_view features(reinterpret_cast<const char*>(table.features.data()),
                                   static_cast<std::size_t>(table.features.size()) * sizeof(float));
-  packer.add(static_cast<std::uint64_t>(table.categories.size())).add(std::span<const std::uint32_t>(labels));
-  packer.add(std::span<const std::uint32_t>(table.blocks)).add(table.local_size).add(table.words).add(table.seed);
-  packer.add(table.rows_per_object).add(table.tested_rows).add(table.parts).add(hash_of(features));
-  pack_rest(data, settings, measure_confidence, packer);
+  packer(table, hash_of(features));
+  packer(TrialContextView{settings, measure_confidence, data.unknown_objects, data.tested});
 }
 
 Work trial_work(const TrialData& data, const GramMatrices& gram, const Settings& settings, bool measure_confidence) {
   return [data, &gram, settings, measure_confidence](std::string_view bytes) {
-    Unpacker fields(bytes);
-    Split split;
-    split.train = fields.get_values<std::uint32_t>();
-    split.test = fields.get_values<std::uint32_t>();
+    const auto split = unpack<Split>(bytes);
     JudgeTrainer trainer(data.table, gram, settings.judge, 1);
     return pack(run_trial(data, trainer, split, settings, measure_confidence));
   };
 }
 
 Work make_trial_work(std::string_view context, const RankState& kept) {
-  Unpacker fields(context);
-  check_ticket(fields, kept);
-  const Settings settings = settings_from_json(nlohmann::json::parse(fields.get_text()));
-  const bool measure_confidence = fields.get<bool>();
-  const bool has_tested = fields.get<bool>();
-  const auto unknown_objects = std::make_shared<TestTable>(unpack_tested(fields));
-  const auto tested = has_tested ? std::make_shared<TestTable>(unpack_tested(fields)) : nullptr;
-  Work work = trial_work({kept.table, tested.get(), *unknown_objects}, kept.gram, settings, measure_confidence);
-  return [unknown_objects, tested, work = std::move(work)](std::string_view task) { return work(task); };
+  Unpacker unpacker(context);
+  check_ticket(unpacker.next<TableTicket>(), kept);
+  const auto given = std::make_shared<const TrialContext>(unpacker.next<TrialContext>());
+  const TrialData data{kept.table, given->tested ? &*given->tested : nullptr, given->unknown_objects};
+  Work work = trial_work(data, kept.gram, given->settings, given->measure_confidence);
+  return [given, work = std::move(work)](std::string_view task) { return work(task); };
 }
 
 }  // namespace spincat

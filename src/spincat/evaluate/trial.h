@@ -9,6 +9,7 @@
 #include "spincat/dataset/splits.h"
 #include "spincat/evaluate/evaluation_data.h"
 #include "spincat/judge/kernel.h"
+#include "spincat/parallel/packing.h"
 #include "spincat/parallel/task.h"
 #include "spincat/train/judge_trainer.h"
 #include "spincat/train/train_tasks.h"
@@ -50,9 +51,13 @@ Trial run_trial(const TrialData& data, JudgeTrainer& trainer, const Split& split
 
 // Trials as tasks: a split is one. They need what a trainer has given to all ranks (train_tasks.h), and of the data
 // what is only tested.
-std::string pack(const Split& split);
-Trial unpack_trial(std::string_view result, std::size_t categories);
-void pack_trials(const TrialData& data, const TableTicket& expected, const Settings& settings, bool measure_confidence,
+void fields(auto& archive, MessageOf<Split> auto& split) {
+  auto& [train, test] = split;
+  archive(train, test);
+}
+
+Trial unpack_trial(std::string_view result);
+void pack_trials(const TrialData& data, const TableTicket& ticket, const Settings& settings, bool measure_confidence,
                  Packer& packer);
 // All that their results depend on but the splits.
 void pack_trials_identity(const TrialData& data, const Settings& settings, bool measure_confidence, Packer& packer);

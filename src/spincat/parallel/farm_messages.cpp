@@ -29,30 +29,6 @@ Greeting own_greeting() {
   return greeting;
 }
 
-std::string pack(const Greeting& greeting) {
-  return Packer()
-      .add(greeting.protocol)
-      .add(greeting.program)
-      .add(greeting.host)
-      .add(greeting.processes)
-      .add(greeting.process)
-      .take();
-}
-
-Greeting unpack_greeting(std::string_view bytes) {
-  Unpacker fields(bytes);
-  Greeting greeting;
-  greeting.protocol = fields.get<std::uint32_t>();
-  greeting.program = fields.get_text();
-  if (greeting.protocol != kProtocol) {
-    return greeting;  // nothing else is known to be where it is here
-  }
-  greeting.host = fields.get_text();
-  greeting.processes = fields.get_text();
-  greeting.process = fields.get<std::int64_t>();
-  return greeting;
-}
-
 bool is_in_our_sight(const Greeting& greeting) {
   static const Greeting own = own_greeting();
   return greeting.process > 0 && greeting.process != own.process && greeting.processes == own.processes;
@@ -62,28 +38,24 @@ bool has_gone(const Greeting& greeting) {
   return is_in_our_sight(greeting) && !is_there(greeting.process);
 }
 
-void pack_job_start(const JobStart& start, Packer& packer) {
-  packer.add(start.job).add(start.threads).add(start.kind);
+// What a result is but for its bytes.
+struct ResultHead {
+  std::uint64_t task = 0;
+  TaskResult::Outcome outcome = TaskResult::Outcome::done;
+  double seconds = 0.0;
+  std::string file;
+  std::uint32_t job = 0;
+};
+
+void fields(auto& archive, MessageOf<ResultHead> auto& head) {
+  auto& [task, outcome, seconds, file, job] = head;
+  archive(task, outcome, seconds, file, job);
 }
 
-JobStart unpack_job_start(Unpacker& fields) {
-  JobStart start;
-  start.job = fields.get<std::uint32_t>();
-  start.threads = fields.get<std::int32_t>();
-  start.kind = fields.get_text();
-  return start;
-}
-
-std::string pack(std::uint32_t job, TaskResult result) {
-  const std::string rest = Packer()
-                               .add(static_cast<std::uint64_t>(result.task))
-                               .add(result.outcome)
-                               .add(result.seconds)
-                               .add(result.file)
-                               .add(job)
-                               .take();
-  std::string bytes = std::move(result.bytes);
-  return bytes.append(rest).append(Packer().add(static_cast<std::uint64_t>(rest.size())).take());
+std::string pack_result(std::uint32_t job, TaskResult result) {
+  auto& [task, outcome, bytes, file, seconds] = result;  // does not compile when a member is forgotten
+  const std::string head = pack(ResultHead{task, outcome, seconds, std::move(file), job});
+  return std::move(bytes.append(head).append(pack(static_cast<std::uint64_t>(head.size()))));
 }
 
 TaskResult unpack_result(std::string bytes, std::uint32_t& job) {
@@ -94,19 +66,13 @@ TaskResult unpack_result(std::string bytes, std::uint32_t& job) {
     return bytes.size() - size;
   };
   const std::size_t length = from_end(sizeof(std::uint64_t));
-  const auto rest_size = Unpacker(std::string_view(bytes).substr(length)).get<std::uint64_t>();
+  const auto head_size = unpack<std::uint64_t>(std::string_view(bytes).substr(length));
   bytes.resize(length);
-  const std::size_t begin = from_end(rest_size);
-  Unpacker fields(std::string_view(bytes).substr(begin));
-  TaskResult result;
-  result.task = fields.get<std::uint64_t>();
-  result.outcome = fields.get<TaskResult::Outcome>();
-  result.seconds = fields.get<double>();
-  result.file = fields.get_text();
-  job = fields.get<std::uint32_t>();
+  const std::size_t begin = from_end(head_size);
+  auto head = unpack<ResultHead>(std::string_view(bytes).substr(begin));
   bytes.resize(begin);
-  result.bytes = std::move(bytes);
-  return result;
+  job = head.job;
+  return {head.task, head.outcome, std::move(bytes), std::move(head.file), head.seconds};
 }
 
 }  // namespace spincat::farm

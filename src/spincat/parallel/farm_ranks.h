@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,14 @@
 #include "spincat/parallel/task_farm.h"
 
 namespace spincat {
+
+// When we were away so long ourselves, the silence of others means nothing.
+inline constexpr std::chrono::milliseconds kStall(500);
+
+// The same bytes can be on their way to many ranks.
+inline SharedBytes to_send(std::string bytes) {
+  return std::make_shared<const std::string>(std::move(bytes));
+}
 
 struct TaskFarm::Rank {
   farm::Greeting greeting;

@@ -18,19 +18,19 @@ double busy_percent(const FarmReport::Rank& rank, double seconds) {
   return all > 0.0 ? std::min(100.0, 100.0 * rank.busy_seconds / all) : 0.0;
 }
 
-// Each rank's share; the range where there are many.
+// How busy each rank was; the range where there are many.
 std::string busy_text(const FarmReport& report) {
   constexpr std::size_t kMostRanks = 16;
-  std::vector<double> shares;
+  std::vector<double> percents;
   std::string each;
   for (const FarmReport::Rank& rank : report.ranks) {
-    shares.push_back(busy_percent(rank, report.seconds));
-    each += fmt::format(" {}", rank.lost ? "lost" : fmt::format("{:.0f}%", shares.back()));
+    percents.push_back(busy_percent(rank, report.seconds));
+    each += fmt::format(" {}", rank.lost ? "lost" : fmt::format("{:.0f}%", percents.back()));
   }
-  if (shares.size() <= kMostRanks) {
+  if (percents.size() <= kMostRanks) {
     return "busy" + each;
   }
-  const auto [least, most] = std::ranges::minmax_element(shares);
+  const auto [least, most] = std::ranges::minmax_element(percents);
   const auto lost = std::ranges::count(report.ranks, true, &FarmReport::Rank::lost);
   return fmt::format("busy {:.0f}% to {:.0f}%, {} lost", *least, *most, lost);
 }
@@ -53,7 +53,7 @@ std::string FarmReport::text() const {
   }
   line += handed_out_again > 0 ? fmt::format("; {} handed out again", counted(handed_out_again, "task"))
                                : "; nothing handed out again";
-  for (const auto& [kind, tasks] : elsewhere) {
+  for (const auto& [kind, tasks] : remote_tasks) {
     line += fmt::format("; {} {} elsewhere", tasks, kind);
   }
   for (std::size_t r = 0; r < ranks.size(); ++r) {

@@ -1,4 +1,4 @@
-// How the work was shared out.
+// How the work was spread over ranks.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +18,10 @@ struct FarmReport {
   };
 
   std::vector<Rank> ranks;
-  double seconds = 0.0;                          // while there was work to share out
-  std::size_t handed_out_again = 0;              // tasks of ranks that were lost
-  std::size_t resumed = 0;                       // tasks that the journal had
-  std::map<std::string, std::size_t> elsewhere;  // tasks of each kind that other ranks have done; only where asked for
+  double seconds = 0.0;                             // while there was work for ranks
+  std::size_t handed_out_again = 0;                 // tasks of ranks that were lost
+  std::size_t resumed = 0;                          // tasks that the journal had
+  std::map<std::string, std::size_t> remote_tasks;  // of each kind, done by other ranks; only where asked for
 
   // One line: ranks, hosts, threads, how busy each was, what was lost.
   std::string text() const;

@@ -1,9 +1,20 @@
 // Values as bytes, for messages between ranks and for the journal. The ranks of a run have one byte order.
+//
+// A message is described once, by a function that packing and unpacking both run:
+//
+//   void fields(auto& archive, MessageOf<GramTask> auto& task) {
+//     auto& [matrix, strip] = task;  // does not compile when a member is forgotten
+//     archive(matrix, strip);
+//   }
+//
+// It stands in the namespace of the message, outside of any unnamed one, so that the archives find it.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,8 +29,19 @@ namespace spincat {
 template <class T>
 concept PlainValue = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
+// A message of this type: one that is read, or one that is filled.
+template <class Message, class Type>
+concept MessageOf = std::same_as<std::remove_const_t<Message>, Type>;
+
 class Packer {
  public:
+  // One after the other: plain values, texts, vectors, and whatever has fields().
+  template <class... Values>
+  Packer& operator()(const Values&... values) {
+    (put(values), ...);
+    return *this;
+  }
+
   template <PlainValue T>
   Packer& add(T value) {
     bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T));
@@ -53,6 +75,43 @@ class Packer {
   std::string take() { return std::move(bytes_); }
 
  private:
+  template <class T>
+  void put(const T& value) {
+    if constexpr (PlainValue<T>) {
+      add(value);
+    } else if constexpr (std::convertible_to<const T&, std::string_view>) {
+      add(std::string_view(value));
+    } else {
+      fields(*this, value);
+    }
+  }
+
+  // What an Unpacker fills as an optional.
+  template <class T>
+  void put(const T* value) {
+    put(value != nullptr);
+    if (value != nullptr) {
+      put(*value);
+    }
+  }
+
+  template <class T>
+  void put(const std::optional<T>& value) {
+    put(value ? &*value : nullptr);
+  }
+
+  template <class T>
+  void put(const std::vector<T>& values) {
+    if constexpr (PlainValue<T>) {
+      add(std::span<const T>(values));
+    } else {
+      add(static_cast<std::uint64_t>(values.size()));
+      for (const T& value : values) {
+        put(value);
+      }
+    }
+  }
+
   std::string bytes_;
 };
 
@@ -60,6 +119,21 @@ class Packer {
 class Unpacker {
  public:
   explicit Unpacker(std::string_view bytes) : left_(bytes) {}
+
+  // Fills them, one after the other. A std::string_view points into the bytes.
+  template <class... Values>
+  Unpacker& operator()(Values&... values) {
+    (fill(values), ...);
+    return *this;
+  }
+
+  // The next message, or whatever else one archive can read.
+  template <class T>
+  T next() {
+    T value{};
+    fill(value);
+    return value;
+  }
 
   template <PlainValue T>
   T get() {
@@ -96,6 +170,37 @@ class Unpacker {
   std::string_view rest() const { return left_; }
 
  private:
+  template <class T>
+  void fill(T& value) {
+    if constexpr (PlainValue<T>) {
+      value = get<T>();
+    } else if constexpr (std::convertible_to<const T&, std::string_view>) {
+      value = get_text();
+    } else {
+      fields(*this, value);
+    }
+  }
+
+  template <class T>
+  void fill(std::optional<T>& value) {
+    value.reset();
+    if (get<bool>()) {
+      fill(value.emplace());
+    }
+  }
+
+  template <class T>
+  void fill(std::vector<T>& values) {
+    if constexpr (PlainValue<T>) {
+      values = get_values<T>();
+    } else {
+      values.clear();
+      for (auto left = get<std::uint64_t>(); left > 0; --left) {
+        fill(values.emplace_back());
+      }
+    }
+  }
+
   std::string_view take(std::uint64_t size) {
     if (size > left_.size()) {
       throw RunError("a message between ranks ends early");
@@ -107,5 +212,18 @@ class Unpacker {
 
   std::string_view left_;
 };
+
+// One message alone.
+template <class Message>
+std::string pack(const Message& message) {
+  Packer packer;
+  packer(message);
+  return packer.take();
+}
+
+template <class Message>
+Message unpack(std::string_view bytes) {
+  return Unpacker(bytes).next<Message>();
+}
 
 }  // namespace spincat

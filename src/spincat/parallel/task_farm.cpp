@@ -1,400 +1,25 @@
 #include "spincat/parallel/task_farm.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <exception>
-#include <map>
-#include <memory>
-#include <optional>
 #include <thread>
 #include <utility>
 
-#include "spincat/error.h"
 #include "spincat/parallel/farm_messages.h"
 #include "spincat/parallel/farm_ranks.h"
 #include "spincat/parallel/heartbeat.h"
-#include "spincat/parallel/packing.h"
-#include "spincat/parallel/pause.h"
-#include "spincat/parallel/task_queue.h"
-#include "spincat/parallel/thread_crew.h"
 
 namespace spincat {
 namespace {
 
 using Clock = TaskFarm::Clock;
 
-constexpr int kHere = 0;                // rank 0, as an owner of tasks
-constexpr int kMostRanksToWorkAt = 32;  // with more, rank 0 has enough to do with handing out and delivering
-constexpr std::size_t kTasksAhead = 2;  // a thread has this many tasks: one to do, one to go on with
-// One of another rank has more of short ones: while rank 0 is busy with a result, nobody gives it another.
-constexpr std::size_t kMostTasksAhead = 8;
-constexpr double kSecondsAhead = 0.03;
-constexpr std::chrono::milliseconds kBetweenTicks(50);
 constexpr std::chrono::milliseconds kGreetingPatience(2000);
-constexpr std::size_t kMostWaiting = std::size_t{1} << 30;   // bytes to one rank; then it is told nothing more
-constexpr std::size_t kMostForLost = std::size_t{64} << 20;  // the same: it may be there again soon
-constexpr std::chrono::milliseconds kStall(500);  // when we were away so long ourselves, others' silence means nothing
-
-SharedBytes shared(std::string bytes) {
-  return std::make_shared<const std::string>(std::move(bytes));
-}
 
 }  // namespace
 
-// One job from its first task to its last.
-class TaskFarm::Run {
- public:
-  Run(TaskFarm& farm, const Job& job, const Tick& tick)
-      : farm_(farm), job_(job), tick_(tick), number_(++farm.job_), queue_(job.tasks, window()) {
-    if (job.in_journal && farm_.journal_ != nullptr) {
-      journal_ = farm_.journal_;
-      journal_job_ = job_key(farm_.journaled_jobs_++, job.kind, job.tasks, hash_of_job());
-    }
-  }
-
-  // Whatever ends the job, nobody goes on with it.
-  ~Run() {
-    for (std::size_t r = 0; r < farm_.others_.size(); ++r) {
-      Rank& rank = farm_.others_[r];
-      rank.ready = false;
-      if (started_) {
-        farm_.tell(r, farm::kEndOfJob, shared(Packer().add(number_).take()));
-      }
-    }
-  }
-
-  void do_all() {
-    const auto start = Clock::now();
-    begin();
-    Pause pause;
-    while (!queue_.all_delivered()) {
-      bool happened = take_local();  // all four, whatever the others say
-      happened = hear() || happened;
-      happened = deliver() || happened;
-      happened = hand_out() || happened;
-      check_timeouts();
-      if (happened || Clock::now() - last_tick_ > kBetweenTicks) {
-        last_tick_ = Clock::now();
-        tick();
-      }
-      rest(pause.after({happened, farm_.ranks_.under_way() > 0, tasks_here() > 0}));
-    }
-    if (!job_.stays_here) {
-      const std::chrono::duration<double> spent = Clock::now() - start;
-      farm_.seconds_ += spent.count();
-    }
-  }
-
- private:
-  // Bounds the results that wait for their turn, not the tasks under way: these are fewer.
-  std::size_t window() const {
-    return std::max<std::size_t>(64, kMostTasksAhead * static_cast<std::size_t>(farm_.threads_everywhere()));
-  }
-
-  void tick() const {
-    if (tick_) {
-      tick_(queue_.delivered());
-    }
-  }
-
-  // What the journal has is done; the others are told about the job unless nothing is left for them.
-  void begin() {
-    std::size_t known = 0;
-    for (std::size_t task = 0; journal_ != nullptr && task < job_.tasks; ++task) {
-      if (journal_->has(journal_job_, task)) {
-        queue_.finish(task);
-        ++known;
-      }
-    }
-    farm_.resumed_ += known;
-    started_ = (known < job_.tasks || job_.tells_all) && !farm_.others_.empty() && !job_.stays_here;
-    if (started_) {
-      hear();  // what was said since the last job
-      const SharedBytes start = farm_.start_of(number_, job_.kind, job_.context);
-      for (std::size_t r = 0; r < farm_.others_.size(); ++r) {
-        farm_.others_[r].start_job();
-        farm_.ask(r, start);
-      }
-    }
-  }
-
-  // Of all that its results depend on: another job may stand at this place when the journal is used again, as where an
-  // object can be read now and could not be then.
-  std::uint64_t hash_of_job() const {
-    Packer packer;
-    if (const Context& content = job_.identity ? job_.identity : job_.context) {
-      content(packer);
-    }
-    std::uint64_t hash = hash_of(packer.take());
-    for (std::size_t task = 0; task < job_.tasks; ++task) {
-      hash = hash_of(job_.task(task), hash);
-    }
-    return hash;
-  }
-
-  void say(std::size_t other, farm::Tag tag, std::string bytes) const {
-    farm_.ranks_.send(static_cast<int>(other) + 1, tag, shared(std::move(bytes)));
-  }
-
-  // Few ranks, or nobody else there.
-  bool works_here() const {
-    const bool is_wanted = farm_.ranks_.size() <= kMostRanksToWorkAt && !farm_.always_broadcasts();
-    return job_.stays_here || is_wanted ||
-           std::ranges::all_of(farm_.others_, [](const Rank& rank) { return rank.lost || rank.refused; });
-  }
-
-  // Those that our own threads have.
-  std::size_t tasks_here() const { return crew_ ? crew_->tasks() : 0; }
-
-  bool take_local() {
-    bool taken = false;
-    while (crew_) {
-      std::optional<TaskResult> result = crew_->take();
-      if (!result) {
-        break;
-      }
-      farm_.busy_here_ += job_.stays_here ? 0.0 : result->seconds;
-      accept(kHere, std::move(*result));
-      taken = true;
-    }
-    return taken;
-  }
-
-  bool hear() {
-    bool heard = false;
-    while (std::optional<Message> message = farm_.ranks_.receive()) {
-      heard = true;
-      Rank& rank = farm_.others_[static_cast<std::size_t>(message->from) - 1];
-      rank.heard();
-      act_on(rank, *std::move(message));
-    }
-    return heard;
-  }
-
-  void act_on(Rank& rank, Message message) {
-    Unpacker fields(message.bytes);
-    switch (message.tag) {
-      case farm::kReady:
-        if (fields.get<std::uint32_t>() == number_) {
-          rank.ready = true;
-          rank.threads = fields.get<std::int32_t>();
-          queue_.set_window(window());
-        }
-        break;
-      case farm::kRefusal:
-        if (fields.get<std::uint32_t>() == number_) {
-          rank.refuse(std::string(fields.get_text()));
-        }
-        break;
-      case farm::kResult: {
-        std::uint32_t job = 0;
-        TaskResult result = farm::unpack_result(std::move(message.bytes), job);
-        rank.busy_seconds += result.seconds;
-        if (job == number_) {
-          rank.tasks -= rank.tasks > 0 ? 1 : 0;
-          accept(message.from, std::move(result));
-        }
-        break;
-      }
-      default:
-        farm_.greet(rank, message);
-        break;
-    }
-  }
-
-  // The first result of a task counts. What another rank could not do is done here: its host may lack what ours has,
-  // and only so is a problem the same for any ranks.
-  void accept(int from, TaskResult result) {
-    if (from != kHere && result.outcome != TaskResult::Outcome::done) {
-      if (!queue_.is_done(result.task)) {
-        do_local(result.task);
-      }
-      return;
-    }
-    if (!queue_.finish(result.task)) {
-      return;
-    }
-    if (from != kHere && farm_.always_broadcasts()) {
-      ++farm_.elsewhere_[job_.kind];
-    }
-    median_.add(result.seconds);
-    if (result.outcome == TaskResult::Outcome::done) {
-      tell_others(from, result.task, result.bytes);
-    }
-    if (journal_ != nullptr && result.outcome == TaskResult::Outcome::done) {
-      keep(result);
-    }
-    waiting_.emplace(result.task, std::move(result));
-  }
-
-  void keep(const TaskResult& result) {
-    if (farm_.journal_is_full_ || (job_.is_worth_keeping && !job_.is_worth_keeping(result.bytes))) {
-      return;
-    }
-    try {
-      journal_->add(journal_job_, result.task, result.bytes);
-    } catch (const RunError& problem) {
-      if (!farm_.tell_journal_failure_) {
-        throw;
-      }
-      farm_.journal_is_full_ = true;
-      farm_.tell_journal_failure_(problem);
-    }
-  }
-
-  // All but the rank that has made it.
-  void tell_others(int from, std::size_t task, std::string_view result) {
-    if (!started_ || !job_.tells_all) {
-      return;
-    }
-    if (!tells_) {
-      tells_ = job_.tells_all(result);
-    }
-    if (!tells_.value_or(false)) {
-      return;
-    }
-    const SharedBytes told = shared(Packer().add(number_).add(std::uint64_t{task}).add_rest(result).take());
-    for (std::size_t r = 0; r < farm_.others_.size(); ++r) {
-      if (static_cast<int>(r) + 1 != from) {
-        farm_.tell(r, farm::kTold, told);  // one that misses it cannot take part in what needs it
-      }
-    }
-  }
-
-  bool deliver() {
-    bool delivered = false;
-    while (!queue_.all_delivered() && queue_.is_done(queue_.delivered())) {
-      const std::size_t task = queue_.delivered();
-      const auto found = waiting_.find(task);
-      if (found == waiting_.end()) {
-        std::optional<std::string> result = journal_->find(journal_job_, task);
-        if (!result) {
-          throw RunError("the journal can no longer be read");
-        }
-        tell_others(kHere, task, *result);
-        job_.deliver(task, *std::move(result));
-      } else {
-        TaskResult result = std::move(found->second);
-        waiting_.erase(found);
-        if (result.outcome != TaskResult::Outcome::done) {
-          result.throw_problem();
-        }
-        job_.deliver(task, std::move(result.bytes));
-      }
-      queue_.deliver();
-      delivered = true;
-    }
-    return delivered;
-  }
-
-  bool hand_out() {
-    bool handed = false;
-    const auto now = Clock::now();
-    const TaskQueue::Seconds patience(std::max(1.0, 5.0 * median_.value()));
-    // In turns: the first tasks of a small job must not all queue up at one rank, nor its last.
-    const std::size_t turns = tasks_ahead();
-    for (std::size_t turn = 0; turn < turns; ++turn) {
-      for (std::size_t r = 0; r < farm_.others_.size(); ++r) {
-        Rank& rank = farm_.others_[r];
-        while (rank.ready && !rank.lost && rank.tasks < (turn + 1) * static_cast<std::size_t>(rank.threads)) {
-          const auto task = queue_.next_for(static_cast<int>(r) + 1, now, patience);
-          if (!task) {
-            break;
-          }
-          say(r, farm::kTask, Packer().add(number_).add(std::uint64_t{*task}).take() + job_.task(*task));
-          ++rank.tasks;
-          handed = true;
-        }
-      }
-      const std::size_t here = std::min(turn + 1, kTasksAhead) * static_cast<std::size_t>(farm_.threads_);
-      handed = hand_out_here(here, now, patience) || handed;
-    }
-    return handed;
-  }
-
-  // Of a thread of another rank.
-  std::size_t tasks_ahead() const {
-    const double tasks = median_.value() > 0.0 ? kSecondsAhead / median_.value() : 0.0;
-    return static_cast<std::size_t>(
-        std::clamp(tasks, static_cast<double>(kTasksAhead), static_cast<double>(kMostTasksAhead)));
-  }
-
-  bool hand_out_here(std::size_t most, Clock::time_point now, TaskQueue::Seconds patience) {
-    bool handed = false;
-    while (tasks_here() < most && works_here()) {
-      const auto task = queue_.next_for(kHere, now, patience);
-      if (!task) {
-        break;
-      }
-      do_local(*task);
-      handed = true;
-    }
-    return handed;
-  }
-
-  void do_local(std::size_t task) {
-    if (!crew_) {
-      crew_ = std::make_unique<ThreadCrew>(job_.work, farm_.threads_);
-    }
-    crew_->give(task, job_.task(task));
-  }
-
-  // Takes tasks back from ranks that say nothing.
-  void check_timeouts() {
-    const auto now = Clock::now();
-    const auto since = now - farm_.last_look_;
-    if (since < kBetweenTicks) {
-      return;
-    }
-    const Clock::duration away = since > kStall ? since : Clock::duration(0);
-    farm_.last_look_ = now;
-    for (std::size_t r = 0; started_ && r < farm_.others_.size(); ++r) {
-      Rank& rank = farm_.others_[r];
-      rank.last_heard = std::max(std::min(rank.last_heard + away, now), farm_.ranks_.heard(static_cast<int>(r) + 1));
-      const bool is_away = rank.left || now - rank.last_heard > silence_deadline() || farm::has_gone(rank.greeting) ||
-                           farm_.ranks_.is_cut_off(static_cast<int>(r) + 1);
-      if (!rank.lost && !rank.refused && is_away) {
-        rank.lost = true;
-        rank.tasks = 0;
-        farm_.handed_out_again_ += queue_.take_back(static_cast<int>(r) + 1);
-      }
-    }
-  }
-
-  void rest(std::chrono::microseconds pause) {
-    if (!started_) {
-      pause = kBetweenTicks;  // a finished task wakes us
-    }
-    if (queue_.all_delivered()) {
-      return;
-    }
-    if (pause.count() == 0) {
-      std::this_thread::yield();
-    } else if (crew_) {
-      crew_->wait(pause);
-    } else {
-      std::this_thread::sleep_for(pause);
-    }
-  }
-
-  TaskFarm& farm_;
-  const Job& job_;
-  const Tick& tick_;
-  const std::uint32_t number_;
-  Journal* journal_ = nullptr;  // null where this job is not in one
-  std::uint64_t journal_job_ = 0;
-  bool started_ = false;       // the others were told
-  std::optional<bool> tells_;  // whether they are told all results
-  TaskQueue queue_;
-  std::map<std::size_t, TaskResult> waiting_;  // for their turn
-  RunningMedian median_;                       // seconds a task takes
-  Clock::time_point last_tick_;
-  std::unique_ptr<ThreadCrew> crew_;
-};
-
-TaskFarm::TaskFarm(Communicator& ranks) : ranks_(ranks), others_(static_cast<std::size_t>(ranks.size()) - 1) {
-  say_to_all(farm::kHello, shared(farm::pack(farm::own_greeting())));
+TaskFarm::TaskFarm(Communicator& ranks, const FarmPolicy& policy)
+    : ranks_(ranks), policy_(policy), others_(static_cast<std::size_t>(ranks.size()) - 1) {
+  say_to_all(farm::kHello, to_send(pack(farm::own_greeting())));
   try {
     heartbeat_ = others_.empty() ? nullptr : std::make_unique<Heartbeat>(ranks_);
   } catch (...) {  // no thread can be made
@@ -426,11 +51,7 @@ int TaskFarm::threads_everywhere() const {
   return threads;
 }
 
-void TaskFarm::run(const Job& job, const Tick& tick) {
-  Run(*this, job, tick).do_all();
-}
-
-void TaskFarm::share(const std::string& kind, const Context& context) {
+void TaskFarm::broadcast(const std::string& kind, const Context& context) {
   if (others_.empty()) {
     return;
   }
@@ -440,98 +61,13 @@ void TaskFarm::share(const std::string& kind, const Context& context) {
   }
 }
 
-// Whether the rank takes what it is told: one that is slow, stopped or lost must not cost all our memory.
-bool TaskFarm::tell(std::size_t other, int tag, const SharedBytes& bytes) {
-  const Rank& rank = others_[other];
-  const int number = static_cast<int>(other) + 1;
-  if (ranks_.bytes_waiting(number) > (rank.lost ? kMostForLost : kMostWaiting)) {
-    return false;
-  }
-  ranks_.send(number, tag, bytes);
-  return true;
-}
-
-// What a job begins with; each rank answers it.
-void TaskFarm::ask(std::size_t other, const SharedBytes& job) {
-  if (tell(other, farm::kJob, job)) {
-    others_[other].ask(ranks_.heard(static_cast<int>(other) + 1));
-  } else {
-    others_[other].refuse("it does not take what it is sent");
-  }
-}
-
-void TaskFarm::say_to_all(int tag, const SharedBytes& bytes) {
-  for (int r = 1; r < ranks_.size(); ++r) {
-    ranks_.send(r, tag, bytes);
-  }
-}
-
 SharedBytes TaskFarm::start_of(std::uint32_t job, const std::string& kind, const Context& context) const {
   Packer packer;
-  farm::pack_job_start({job, requested_threads_, kind}, packer);
+  packer(farm::JobStart{job, requested_threads_, kind});
   if (context) {
     context(packer);
   }
-  return shared(packer.take());
-}
-
-// Learns who a rank is, or that it has gone.
-void TaskFarm::greet(Rank& rank, const Message& message) {
-  if (message.tag == farm::kHello) {
-    rank.greeting = farm::unpack_greeting(message.bytes);
-    const farm::Greeting own = farm::own_greeting();
-    if (rank.greeting.protocol != own.protocol || rank.greeting.program != own.program) {
-      throw RunError(fmt::format("rank {} runs {}, rank 0 another version: all hosts need the same program",
-                                 message.from, rank.greeting.program));
-    }
-  } else if (message.tag == farm::kBye) {
-    rank.left = true;
-  }
-}
-
-// When the work is over, whatever is wrong with a rank costs nothing any more.
-void TaskFarm::greet_late(Rank& rank, const Message& message) {
-  try {
-    greet(rank, message);
-  } catch (const std::exception&) {
-    return;
-  }
-}
-
-// None may leave before all can: MPI ends well only where all come to its end together.
-void TaskFarm::dismiss() {
-  say_to_all(farm::kQuit, shared({}));
-  for (Rank& rank : others_) {
-    rank.last_heard = Clock::now();
-  }
-  auto last_look = Clock::now();
-  Pause pause;
-  const auto here = [](const Rank& rank) { return !rank.left && !rank.given_up; };
-  while (std::ranges::any_of(others_, here)) {
-    bool heard = false;
-    while (const std::optional<Message> message = ranks_.receive()) {
-      heard = true;
-      Rank& rank = others_[static_cast<std::size_t>(message->from) - 1];
-      rank.heard();
-      greet_late(rank, *message);
-    }
-    const auto now = Clock::now();
-    const bool stalled = now - last_look > kStall;
-    last_look = now;
-    for (std::size_t r = 0; r < others_.size(); ++r) {
-      Rank& rank = others_[r];
-      const int number = static_cast<int>(r) + 1;
-      rank.last_heard = stalled ? now : std::max(rank.last_heard, ranks_.heard(number));
-      if (here(rank) && rank.should_be_given_up(now - rank.last_heard, ranks_.is_cut_off(number))) {
-        rank.given_up = true;
-        ranks_.send(number, farm::kEnd, shared({}));  // in case it still hears
-        ranks_.give_up(number);
-      }
-    }
-    std::this_thread::sleep_for(pause.after({.happened = heard}));
-  }
-  heartbeat_.reset();  // the next is the last word
-  say_to_all(farm::kEnd, shared({}));
+  return to_send(packer.take());
 }
 
 FarmReport TaskFarm::report() {
@@ -552,7 +88,7 @@ FarmReport TaskFarm::report() {
   report.seconds = seconds_;
   report.handed_out_again = handed_out_again_;
   report.resumed = resumed_;
-  report.elsewhere = elsewhere_;
+  report.remote_tasks = remote_tasks_;
   return report;
 }
 

@@ -7,7 +7,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,26 +21,11 @@ namespace spincat {
 
 class Heartbeat;
 
-// Packs what other ranks need.
-using Context = std::function<void(Packer& packer)>;
-
-// Tasks of one kind.
-struct Job {
-  std::string kind;  // by which other ranks know the work
-  Context context;   // what they need for it
-  Context identity;  // what its results depend on, by which the journal knows it; empty: the context is that
-  Work work;         // the same work, here
-  std::size_t tasks = 0;
-  std::function<std::string(std::size_t task)> task;  // what is to be done, as bytes
-  std::function<void(std::size_t task, std::string result)>
-      deliver;             // on the calling thread, in the order of the tasks
-  bool in_journal = true;  // false where results are large, or soon computed again
-  std::function<bool(std::string_view result)> is_worth_keeping;  // in the journal; empty: every result is
-  bool stays_here = false;                                        // for the threads of this process alone
-  // Whether all ranks are to be told all results, as they come (RankWork::keep): every rank that takes part then knows
-  // them before it hears of the next job. Asked with one result after the other until it says so; those for which it
-  // says nothing are not told. Empty: no.
-  std::function<std::optional<bool>(std::string_view result)> tells_all;
+// How far other ranks are drawn into the work. The results do not depend on it.
+struct FarmPolicy {
+  int most_ranks_to_work_beside = 32;  // with more, rank 0 has enough to do with handing out and delivering
+  double gain_of_broadcast = 2.0;      // seconds that one second of sending must save all ranks to be worth it
+  bool counts_remote_tasks = false;    // FarmReport::remote_tasks
 };
 
 // Rank 0's side of the farm; the other ranks serve (task_server.h). A rank that says nothing for longer than the
@@ -54,7 +38,7 @@ class TaskFarm {
   // Called with the number of tasks delivered, at least some ten times a second. What it throws ends the job cleanly.
   using Tick = std::function<void(std::size_t delivered)>;
 
-  explicit TaskFarm(Communicator& ranks);
+  explicit TaskFarm(Communicator& ranks, const FarmPolicy& policy = {});
   // Tells the other ranks that this was all, and waits for those that are not lost. Ranks of this host that are stopped
   // are killed: a launcher would wait for them for ever.
   ~TaskFarm();
@@ -65,7 +49,7 @@ class TaskFarm {
   Placement placement() const { return placement_of(ranks_); }
   std::string mpi() const { return ranks_.implementation(); }
 
-  // Threads of this process, and as many as the user asked for elsewhere (0: as many as there are).
+  // Threads of this process, and as many as the user asked for on other ranks (0: as many as there are).
   void use_threads(int here, int requested);
   int threads() const { return threads_; }
   // Whether there is more to a job than this process's threads: other ranks, or a journal.
@@ -73,9 +57,7 @@ class TaskFarm {
 
   std::size_t resumed() const { return resumed_; }  // tasks that the journal had, so far
 
-  // For tests: from now on other ranks do all that they can, however little it is, and the report tells what they did.
-  void always_broadcast() { shares_always_ = true; }
-  bool always_broadcasts() const { return shares_always_ && ranks() > 1; }
+  const FarmPolicy& policy() const { return policy_; }
   int threads_everywhere() const;  // as far as known: ranks that have not spoken yet count like this one
 
   // From now on results are kept in the journal, and those that it has are not computed again. Null: no journal. Where
@@ -88,7 +70,7 @@ class TaskFarm {
   void run(const Job& job, const Tick& tick = {});
 
   // Gives all other ranks something that later jobs need. No tasks.
-  void share(const std::string& kind, const Context& context);
+  void broadcast(const std::string& kind, const Context& context);
 
   // So far. Waits a moment for ranks that have not even said where they are: jobs may be over before.
   FarmReport report();
@@ -106,6 +88,7 @@ class TaskFarm {
   void dismiss();
 
   Communicator& ranks_;
+  const FarmPolicy policy_;
   std::unique_ptr<Heartbeat> heartbeat_;  // null where there is no other rank
   int threads_ = 1;
   int requested_threads_ = 1;
@@ -120,9 +103,7 @@ class TaskFarm {
   double seconds_ = 0.0;
   std::size_t handed_out_again_ = 0;
   std::size_t resumed_ = 0;
-  bool shares_always_ = false;
-  std::map<std::string, std::size_t>
-      elsewhere_;  // tasks that other ranks have done, by their kind; where shares_always_
+  std::map<std::string, std::size_t> remote_tasks_;  // by their kind; where the policy counts them
 };
 
 // How long a rank may say nothing before it is taken to be lost: ten times the time between two signs of life. The

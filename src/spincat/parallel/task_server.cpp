@@ -109,24 +109,22 @@ class Server {
     }
     switch (message.tag) {
       case farm::kHello:
-        rank0_ = farm::unpack_greeting(message.bytes);
+        rank0_ = unpack<farm::Greeting>(message.bytes);
         break;
       case farm::kJob:
         start_job(message.bytes);
         break;
       case farm::kTask: {
         Unpacker fields(message.bytes);
-        const auto job = fields.get<std::uint32_t>();
-        const auto task = fields.get<std::uint64_t>();
+        const auto [job, task] = fields.next<farm::TaskNumber>();
         if (crew_ && job == job_) {
           crew_->give(task, std::string(fields.rest()));
         }
         break;
       }
-      case farm::kTold: {
+      case farm::kBroadcast: {
         Unpacker fields(message.bytes);
-        const auto job = fields.get<std::uint32_t>();
-        const auto task = fields.get<std::uint64_t>();
+        const auto [job, task] = fields.next<farm::TaskNumber>();
         if (crew_ && job == job_) {
           keep(task, fields.rest());
         }
@@ -149,16 +147,16 @@ class Server {
   void start_job(std::string_view bytes) {
     end_crew();
     Unpacker fields(bytes);
-    const farm::JobStart start = farm::unpack_job_start(fields);
+    const auto start = fields.next<farm::JobStart>();
     job_ = start.job;
     try {
       const int threads = rules_.thread_count(start.threads);
       RankWork work = factory_(start.kind, fields.rest());
       keep_ = std::move(work.keep);
       crew_ = std::make_unique<ThreadCrew>(std::move(work.work), threads);
-      say(farm::kReady, Packer().add(job_).add(static_cast<std::int32_t>(threads)).take());
+      say(farm::kReady, pack(farm::Ready{job_, threads}));
     } catch (const std::exception& error) {
-      say(farm::kRefusal, Packer().add(job_).add(std::string_view(error.what())).take());
+      say(farm::kRefusal, pack(farm::Refusal{job_, error.what()}));
     }
   }
 
@@ -184,7 +182,7 @@ class Server {
       if (result->outcome == TaskResult::Outcome::done) {
         keep(result->task, result->bytes);
       }
-      say(farm::kResult, farm::pack(job_, *std::move(result)));
+      say(farm::kResult, farm::pack_result(job_, *std::move(result)));
     }
     return answered;
   }

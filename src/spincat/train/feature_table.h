@@ -9,9 +9,7 @@
 #include "spincat/dataset/dataset.h"
 #include "spincat/describe/describe.h"
 #include "spincat/describe/kinds.h"
-#include "spincat/execution.h"
 #include "spincat/judge/gram.h"
-#include "spincat/settings/settings.h"
 
 namespace spincat {
 
@@ -30,11 +28,8 @@ struct FeatureTable {
   std::uint32_t tested_rows = 1;  // of these, the first ones: what may be tested, the object itself or its views
   std::uint32_t parts = 1;        // of a row, all of one length
   std::string encoding;
-  KindCounts kinds;                         // of the objects
-  StageSeconds seconds;                     // added up over threads
-  std::vector<std::uint32_t> described_as;  // N where all ranks of the farm keep the rows: which objects of the data
-                                            // set these are; else empty
-  std::uint64_t number = 0;                 // by which these ranks know the rows again; 0 where they do not keep them
+  KindCounts kinds;      // of the objects
+  StageSeconds seconds;  // added up over threads
 
   std::vector<std::uint32_t> object_labels() const;  // N
   std::vector<std::uint32_t> object_counts() const;  // n: objects of each category, copies not counted
@@ -44,12 +39,5 @@ struct FeatureTable {
   // Of the object itself, or of its view number `view`.
   std::span<const float> features_of(std::uint32_t object, std::uint32_t view = 0) const;
 };
-
-// Reads and describes every object of the data set once, with its copies. The result does not depend on the execution.
-// Where the plan of so many trainings makes it worth it (worth_broadcasting.h), other ranks get the features as they
-// come. Objects that cannot be read are left out and listed with their reason, or are an error where the execution is
-// strict. Throws InputError when fewer than two categories are left.
-FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, const Execution& execution,
-                              std::size_t trainings = 0);
 
 }  // namespace spincat

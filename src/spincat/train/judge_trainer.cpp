@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "spincat/train/broadcast_id.h"
 #include "spincat/train/calibration_folds.h"
 #include "spincat/train/train_tasks.h"
 #include "spincat/train/training.h"
@@ -55,28 +54,22 @@ TaskFarm::Tick telling(const Progress& progress, const char* stage, std::size_t 
 
 }  // namespace
 
-JudgeTrainer::JudgeTrainer(const FeatureTable& table, const JudgeSettings& settings, TaskFarm& farm,
-                           std::size_t trainings, const Progress& progress)
-    : table_(table), settings_(settings), farm_(&farm) {
-  const TableSize size{table.objects.size(), static_cast<std::size_t>(table.features.rows()),
-                       static_cast<std::size_t>(table.features.cols()), table.categories.size()};
-  if (farm.ranks() > 1 && (!table.described_as.empty() || worth_broadcasting(size, trainings, farm))) {
-    shared_as_ = next_broadcast_id();
-    farm.share(kTableTasks, [&](Packer& packer) { pack_table(table, shared_as_, packer); });
-  }
-  const std::size_t matrices = gram_columns(settings.kernel, table.blocks, table.features.cols()).size();
-  if (table.local_size == 0 && may_share_gram(table.features.rows(), static_cast<Eigen::Index>(matrices))) {
+JudgeTrainer::JudgeTrainer(const BroadcastTable& table, const JudgeSettings& settings, const Progress& progress)
+    : where_(table), table_(table.table()), settings_(settings) {
+  const std::size_t matrices = gram_columns(settings.kernel, table_.blocks, table_.features.cols()).size();
+  if (table_.local_size == 0 && fits_gram(table_.features.rows(), static_cast<Eigen::Index>(matrices))) {
     compute_gram(progress);
   }
 }
 
 JudgeTrainer::JudgeTrainer(const FeatureTable& table, const GramMatrices& gram, const JudgeSettings& settings,
                            int threads)
-    : table_(table), settings_(settings), own_(std::in_place, threads), farm_(&own_->farm()), gram_(&gram) {}
-
-TableTicket JudgeTrainer::expected() const {
-  return {shared_as_, static_cast<std::uint32_t>(gram_->blocks.size())};
-}
+    : own_farm_(std::in_place, threads),
+      own_(std::in_place, table, own_farm_->farm()),
+      where_(*own_),
+      table_(table),
+      settings_(settings),
+      gram_(&gram) {}
 
 void JudgeTrainer::compute_gram(const Progress& progress) {
   const std::vector<GramTask> tasks = gram_tasks(table_, settings_.kernel);
@@ -84,17 +77,14 @@ void JudgeTrainer::compute_gram(const Progress& progress) {
   Job job;
   job.kind = kGramTasks;
   job.in_journal = false;
-  job.stays_here = !is_shared();
-  job.context = [&](Packer& packer) {
-    pack_ticket({shared_as_, 0}, packer);
-    packer.add(settings_.kernel);
-  };
+  job.stays_here = !where_.is_broadcast();
+  job.context = [&](Packer& packer) { pack_gram_context(where_.ticket(), settings_.kernel, packer); };
   job.work = gram_work(table_, settings_.kernel);
   job.tasks = tasks.size();
   job.task = [&](std::size_t i) { return pack(tasks[i]); };
   job.deliver = [&](std::size_t i, const std::string& result) { put_strip(tasks[i], result, own_gram_); };
-  job.tells_all = [](std::string_view) { return true; };  // all ranks train with them
-  farm_->run(job, telling(progress, "comparing objects", tasks.size()));
+  job.broadcasts = [](std::string_view) { return true; };  // all ranks train with them
+  where_.farm().run(job, telling(progress, "comparing objects", tasks.size()));
 }
 
 JudgeList JudgeTrainer::train(std::span<const std::uint32_t> objects, const Progress& progress) {
@@ -119,8 +109,8 @@ CalibratedJudges JudgeTrainer::do_trainings(std::span<const TrainingPlan> traini
   Job job;
   job.kind = kJudgesTasks;
   job.in_journal = false;
-  job.stays_here = !is_shared();
-  job.context = [&](Packer& packer) { pack_trainings(expected(), settings_, trainings, packer); };
+  job.stays_here = !where_.is_broadcast();
+  job.context = [&](Packer& packer) { pack_trainings(where_.ticket(*gram_), settings_, trainings, packer); };
   job.work = judges_work(made);
   job.tasks = tasks.size();
   job.task = [&](std::size_t i) { return pack(tasks[i]); };
@@ -133,7 +123,7 @@ CalibratedJudges JudgeTrainer::do_trainings(std::span<const TrainingPlan> traini
       folds.add(plan, tasks[i], result, is_last);
     }
   };
-  farm_->run(job, telling(progress, "training judges", tasks.size()));
+  where_.farm().run(job, telling(progress, "training judges", tasks.size()));
   return {judges.take(), folds.calibration()};
 }
 

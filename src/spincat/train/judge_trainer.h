@@ -1,4 +1,4 @@
-// Training judges on all threads and ranks of a farm.
+// Training the judges of pairs of categories.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,12 +10,11 @@
 #include "spincat/judge/calibration.h"
 #include "spincat/judge/judge_list.h"
 #include "spincat/parallel/task_farm.h"
+#include "spincat/train/broadcast_table.h"
 #include "spincat/train/feature_table.h"
-#include "spincat/train/worth_broadcasting.h"
 
 namespace spincat {
 
-struct TableTicket;
 struct TrainingPlan;
 
 // Judges, and how far their votes can be trusted.
@@ -29,24 +28,16 @@ struct CalibratedJudges {
 // number of threads and ranks.
 class JudgeTrainer {
  public:
-  // Gives the other ranks the table where they do not have it and that pays (worth_broadcasting.h). What is passed by
-  // reference must outlive this object.
-  JudgeTrainer(const FeatureTable& table, const JudgeSettings& settings, TaskFarm& farm, std::size_t trainings,
-               const Progress& progress = {});
+  // On all threads of the table's farm, and its ranks where they have the table. What is passed by reference must
+  // outlive this object.
+  JudgeTrainer(const BroadcastTable& table, const JudgeSettings& settings, const Progress& progress = {});
   // One that knows the inner products (or that there are none), and works on threads of this process.
   JudgeTrainer(const FeatureTable& table, const GramMatrices& gram, const JudgeSettings& settings, int threads);
 
-  // The inner products of the whole table, which all judges share; empty when they would be too large to keep (above
+  // The inner products of the whole table, which all judges use; empty when they would be too large to keep (above
   // a gigabyte: 16,384 rows with one matrix), or when the table holds local features: judges then compute their own
   // parts.
   const GramMatrices& gram() const { return *gram_; }
-
-  // What other ranks should keep (train_tasks.h).
-  TableTicket expected() const;
-
-  // Where jobs are done, and whether by all ranks: those that have the table.
-  TaskFarm& farm() { return *farm_; }
-  bool is_shared() const { return shared_as_ != 0; }
 
   // Trains the judge of every pair of categories on the given objects and their copies. Where the table holds local
   // features, their codebook is learned first, from these objects alone.
@@ -64,11 +55,11 @@ class JudgeTrainer {
   void compute_gram(const Progress& progress);
   CalibratedJudges do_trainings(std::span<const TrainingPlan> trainings, const Progress& progress);
 
+  std::optional<LocalFarm> own_farm_;
+  std::optional<BroadcastTable> own_;
+  const BroadcastTable& where_;  // the table, and who trains on it
   const FeatureTable& table_;
   const JudgeSettings settings_;
-  std::optional<LocalFarm> own_;
-  TaskFarm* farm_;
-  std::uint64_t shared_as_ = 0;
   GramMatrices own_gram_;
   const GramMatrices* gram_ = &own_gram_;
 };

@@ -6,7 +6,8 @@
 #include "spincat/classify/model_data.h"
 #include "spincat/describe/stopwatch.h"
 #include "spincat/parallel/farm_execution.h"
-#include "spincat/train/feature_table.h"
+#include "spincat/train/broadcast_table.h"
+#include "spincat/train/describe_dataset.h"
 #include "spincat/train/judge_trainer.h"
 #include "spincat/train/table_familiarity.h"
 #include "spincat/train/worth_broadcasting.h"
@@ -17,13 +18,15 @@ TrainResult train(const Dataset& dataset, const Settings& settings, const Execut
   // Describe every object and its stretched copies once.
   const FarmExecution run(execution);
   const std::size_t trainings = count_trainings(1, true);
-  const FeatureTable table = describe_dataset(dataset, settings, run, trainings);
+  BroadcastRows rows;
+  const FeatureTable table = describe_dataset(dataset, settings, run, trainings, rows);
   std::vector<std::uint32_t> objects(table.objects.size());
   std::iota(objects.begin(), objects.end(), 0U);
 
   // Train a judge for every pair of categories, and find out how far their votes can be trusted.
   Stopwatch watch;
-  JudgeTrainer trainer(table, settings.judge, *run.farm, trainings, run.progress);
+  const BroadcastTable broadcast(table, *run.farm, rows, trainings);
+  JudgeTrainer trainer(broadcast, settings.judge, run.progress);
   ModelData model;
   CalibratedJudges trained = trainer.train_calibrated(objects, settings.seed, run.progress);
   model.judges = std::move(trained.judges);

@@ -2,117 +2,99 @@
 
 #include <algorithm>
 #include <optional>
-#include <tuple>
 #include <utility>
 
+#include "spincat/describe/packed_matrix.h"
 #include "spincat/error.h"
+#include "spincat/train/packed_table.h"
 
 namespace spincat {
+
+void fields(auto& archive, MessageOf<Judge> auto& judge) {
+  auto& [rows, coefficients, bias] = judge;  // does not compile when a member is forgotten
+  archive(rows, coefficients, bias);
+}
+
+void fields(auto& archive, MessageOf<FoldedJudge> auto& judge) {
+  auto& [weights, bias, support_vectors] = judge;  // all of them
+  archive(weights, bias, support_vectors);
+}
+
+void fields(auto& archive, MessageOf<JudgeSettings> auto& settings) {
+  auto& [kernel, c, class_weights] = settings;  // all of them
+  archive(kernel, c, class_weights);
+}
+
+void fields(auto& archive, MessageOf<TrainingPlan> auto& plan) {
+  auto& [train, held_out] = plan;
+  archive(train, held_out);
+}
+
 namespace {
 
-template <class Matrix>
-void pack_matrix(Packer& packer, const Matrix& matrix) {
-  packer.add(static_cast<std::uint64_t>(matrix.rows())).add(static_cast<std::uint64_t>(matrix.cols()));
-  packer.add(std::span<const float>(matrix.data(), static_cast<std::size_t>(matrix.size())));
+// What a table begins with, before the table itself; its features follow where the ranks do not have the rows.
+struct TableHead {
+  std::uint64_t broadcast_id = 0;
+  BroadcastRows rows;
+};
+
+void fields(auto& archive, MessageOf<TableHead> auto& head) {
+  auto& [broadcast_id, rows] = head;
+  archive(broadcast_id, rows);
 }
 
-template <class Matrix>
-Matrix unpack_matrix(Unpacker& fields) {
-  const auto rows = static_cast<Eigen::Index>(fields.get<std::uint64_t>());
-  const auto columns = static_cast<Eigen::Index>(fields.get<std::uint64_t>());
-  Matrix matrix(rows, columns);
-  fields.get_values_into(std::span<float>(matrix.data(), static_cast<std::size_t>(matrix.size())));
-  return matrix;
+struct GramContext {
+  TableTicket ticket;
+  KernelKind kernel = KernelKind::linear;
+};
+
+void fields(auto& archive, MessageOf<GramContext> auto& context) {
+  auto& [ticket, kernel] = context;
+  archive(ticket, kernel);
 }
 
-void pack_judge(Packer& packer, const Judge& judge) {
-  const auto& [rows, coefficients, bias] = judge;
-  packer.add(std::span<const std::uint32_t>(rows)).add(std::span<const double>(coefficients)).add(bias);
-}
+struct TrainingsContext {
+  TableTicket ticket;
+  JudgeSettings settings;
+  std::vector<TrainingPlan> trainings;
+};
 
-Judge unpack_judge(Unpacker& fields) {
-  Judge judge;
-  judge.rows = fields.get_values<std::uint32_t>();
-  judge.coefficients = fields.get_values<double>();
-  judge.bias = fields.get<float>();
-  return judge;
-}
-
-void pack_folded(Packer& packer, const FoldedJudge& judge) {
-  const auto& [weights, bias, support_vectors] = judge;
-  packer.add(bias).add(support_vectors);
-  packer.add(std::span<const float>(weights.data(), static_cast<std::size_t>(weights.size())));
+void fields(auto& archive, MessageOf<TrainingsContext> auto& context) {
+  auto& [ticket, settings, trainings] = context;
+  archive(ticket, settings, trainings);
 }
 
 std::string do_judges(Trainings& trainings, std::string_view bytes) {
-  Unpacker fields(bytes);
-  const auto number = fields.get<std::uint32_t>();
-  const auto first = fields.get<std::uint32_t>();
-  const auto last = fields.get<std::uint32_t>();
+  const auto [number, first, last] = unpack<JudgesTask>(bytes);
   const Training& training = trainings.training(number);
   const std::vector<CategoryPair> pairs = all_pairs(static_cast<std::uint32_t>(trainings.table().categories.size()));
   const std::vector<Judge> judges = training.train(std::span(pairs).subspan(first, last - first));
-  Packer packer;
   const std::vector<std::uint32_t>& held_out = trainings.plan(number).held_out;
   if (!held_out.empty()) {
-    pack_matrix(packer, training.margins(judges, held_out));
-    return packer.take();
+    return pack(training.margins(judges, held_out));
   }
+  Packer packer;
   if (training.folds()) {
-    constexpr std::size_t kBesidesWeights = 16;  // bytes of a judge
+    constexpr std::size_t kBesidesWeights = 32;  // bytes of a judge
     const auto weights = static_cast<std::size_t>(trainings.table().features.cols());
     packer.reserve(judges.size() * (weights * sizeof(float) + kBesidesWeights));
   }
   for (const Judge& judge : judges) {
     if (training.folds()) {
-      pack_folded(packer, training.fold(judge));
+      packer(training.fold(judge));
     } else {
-      pack_judge(packer, judge);
+      packer(judge);
     }
   }
   return packer.take();
 }
 
-FeatureTable unpack_table(Unpacker& fields, std::uint64_t number, std::optional<TableRows> rows) {
-  FeatureTable table;
-  table.number = number;
-  table.categories.resize(fields.get<std::uint32_t>());
-  for (const std::uint32_t label : fields.get_values<std::uint32_t>()) {
-    table.objects.push_back({{}, label, {}});
-  }
-  table.blocks = fields.get_values<std::uint32_t>();
-  table.local_size = fields.get<std::uint32_t>();
-  table.words = fields.get<std::uint32_t>();
-  table.seed = fields.get<std::uint64_t>();
-  table.rows_per_object = fields.get<std::uint32_t>();
-  table.tested_rows = fields.get<std::uint32_t>();
-  table.parts = fields.get<std::uint32_t>();
-  table.described_as = fields.get_values<std::uint32_t>();
-  if (table.described_as.empty()) {
-    table.features = unpack_matrix<FeatureMatrix>(fields);
-  } else if (rows) {
-    table.features = rows->take(table.described_as);
-  } else {
-    throw RunError("the rows of a feature table are not there");
-  }
-  return table;
-}
-
 }  // namespace
 
-void pack_table(const FeatureTable& table, std::uint64_t shared_as, Packer& packer) {
-  // Does not compile when a member is forgotten.
-  const auto& [objects, categories, skipped, features, blocks, local_size, words, seed, rows_per_object, tested_rows,
-               parts, encoding, kinds, seconds, described_as, number] = table;
-  static_cast<void>(std::tie(skipped, encoding, kinds, seconds));  // not for other ranks
-  packer.add(shared_as).add(number);
-  packer.add(static_cast<std::uint32_t>(categories.size()));
-  const std::vector<std::uint32_t> labels = table.object_labels();
-  packer.add(std::span<const std::uint32_t>(labels)).add(std::span<const std::uint32_t>(blocks));
-  packer.add(local_size).add(words).add(seed).add(rows_per_object).add(tested_rows).add(parts);
-  packer.add(std::span<const std::uint32_t>(described_as));
-  if (described_as.empty()) {
-    pack_matrix(packer, features);
+void pack_table(const FeatureTable& table, std::uint64_t broadcast_id, const BroadcastRows& rows, Packer& packer) {
+  packer(TableHead{broadcast_id, rows}, table);
+  if (rows.id == 0) {
+    packer(table.features);
   }
 }
 
@@ -128,10 +110,6 @@ std::vector<GramTask> gram_tasks(const FeatureTable& table, KernelKind kind) {
   return tasks;
 }
 
-std::string pack(const GramTask& task) {
-  return Packer().add(task.matrix).add(task.strip).take();
-}
-
 GramMatrices unfilled_gram(const FeatureTable& table, KernelKind kind) {
   GramMatrices gram;
   const Eigen::Index rows = table.features.rows();
@@ -142,17 +120,14 @@ GramMatrices unfilled_gram(const FeatureTable& table, KernelKind kind) {
 }
 
 void put_strip(const GramTask& task, std::string_view result, GramMatrices& gram) {
-  Unpacker fields(result);
-  put_gram_strip(unpack_matrix<Eigen::MatrixXf>(fields), task.strip, gram.blocks[task.matrix]);
+  put_gram_strip(unpack<Eigen::MatrixXf>(result), task.strip, gram.blocks[task.matrix]);
 }
 
 Work gram_work(const FeatureTable& table, KernelKind kind) {
   return [&table, columns = gram_columns(kind, table.blocks, table.features.cols())](std::string_view bytes) {
-    Unpacker fields(bytes);
-    const auto [first, count] = columns.at(fields.get<std::uint32_t>());
-    Packer packer;
-    pack_matrix(packer, gram_strip(table.features.middleCols(first, count), fields.get<std::uint32_t>()));
-    return packer.take();
+    const auto [matrix, strip] = unpack<GramTask>(bytes);
+    const auto [first, count] = columns.at(matrix);
+    return pack(gram_strip(table.features.middleCols(first, count), strip));
   };
 }
 
@@ -175,90 +150,89 @@ std::vector<JudgesTask> judges_tasks(const FeatureTable& table, KernelKind kind,
   return tasks;
 }
 
-std::string pack(const JudgesTask& task) {
-  return Packer().add(task.training).add(task.first).add(task.last).take();
-}
-
 void put_folded(std::string_view result, std::uint32_t first, JudgeList& list) {
-  Unpacker fields(result);
-  for (Eigen::Index l = first; !fields.empty(); ++l) {
-    list.bias[l] = fields.get<float>();
-    list.support_vectors.at(static_cast<std::size_t>(l)) = fields.get<std::uint32_t>();
-    fields.get_values_into(std::span<float>(list.weights.row(l).data(), static_cast<std::size_t>(list.weights.cols())));
+  Unpacker unpacker(result);
+  for (Eigen::Index l = first; !unpacker.empty(); ++l) {
+    const auto judge = unpacker.next<FoldedJudge>();
+    if (judge.weights.size() != list.weights.cols()) {
+      throw RunError("a message between ranks holds judges of other features");
+    }
+    list.bias[l] = judge.bias;
+    list.support_vectors.at(static_cast<std::size_t>(l)) = judge.support_vectors;
+    list.weights.row(l) = judge.weights;
   }
 }
 
 std::vector<Judge> unpack_judges(std::string_view result) {
   std::vector<Judge> judges;
-  Unpacker fields(result);
-  while (!fields.empty()) {
-    judges.push_back(unpack_judge(fields));
+  Unpacker unpacker(result);
+  while (!unpacker.empty()) {
+    judges.push_back(unpacker.next<Judge>());
   }
   return judges;
 }
 
 FeatureMatrix unpack_margins(std::string_view result, std::size_t objects) {
-  Unpacker fields(result);
-  auto margins = unpack_matrix<FeatureMatrix>(fields);
+  auto margins = unpack<FeatureMatrix>(result);
   if (margins.rows() != static_cast<Eigen::Index>(objects)) {
     throw RunError("a message between ranks holds margins of other objects");
   }
   return margins;
 }
 
-void pack_trainings(const TableTicket& expected, const JudgeSettings& settings, std::span<const TrainingPlan> trainings,
+void pack_gram_context(const TableTicket& ticket, KernelKind kernel, Packer& packer) {
+  packer(GramContext{ticket, kernel});
+}
+
+void pack_trainings(const TableTicket& ticket, const JudgeSettings& settings, std::span<const TrainingPlan> trainings,
                     Packer& packer) {
-  const auto& [kernel, c, class_weights] = settings;
-  pack_ticket(expected, packer);
-  packer.add(kernel).add(c).add(class_weights);
-  for (const auto& [trained, judged] : trainings) {
-    packer.add(std::span<const std::uint32_t>(trained)).add(std::span<const std::uint32_t>(judged));
-  }
+  packer(TrainingsContext{ticket, settings, {trainings.begin(), trainings.end()}});
 }
 
 Work judges_work(std::shared_ptr<Trainings> trainings) {
   return [trainings = std::move(trainings)](std::string_view task) { return do_judges(*trainings, task); };
 }
 
-void pack_ticket(const TableTicket& expected, Packer& packer) {
-  packer.add(expected.shared_as).add(expected.matrices);
-}
-
-const RankState& check_ticket(Unpacker& fields, const RankState& kept) {
+const RankState& check_ticket(const TableTicket& ticket, const RankState& kept) {
+  const auto& [broadcast_id, matrices] = ticket;
   const bool all_strips = std::ranges::find(kept.missing_strips, true) == kept.missing_strips.end();
-  const auto shared_as = fields.get<std::uint64_t>();
-  const auto matrices = fields.get<std::uint32_t>();
-  if (shared_as == 0 || kept.shared_as != shared_as || kept.gram.blocks.size() != matrices || !all_strips) {
+  if (broadcast_id == 0 || kept.broadcast_id != broadcast_id || kept.gram.blocks.size() != matrices || !all_strips) {
     throw RunError("this rank could not keep what it was given");
   }
   return kept;
 }
 
 Work make_table_work(std::string_view context, RankState& kept) {
-  Unpacker fields(context);
-  const auto shared_as = fields.get<std::uint64_t>();
-  const auto number = fields.get<std::uint64_t>();
+  Unpacker unpacker(context);
+  const auto [broadcast_id, sent] = unpacker.next<TableHead>();
   std::optional<TableRows> rows = std::exchange(kept.rows, std::nullopt);
-  const bool has_table = number != 0 && !rows && kept.shared_as != 0 && kept.table.number == number;
+  const bool has_table = sent.id != 0 && !rows && kept.broadcast_id != 0 && kept.rows_id == sent.id;
   if (has_table) {
     kept.gram = {};
     kept.missing_strips.clear();
   } else {
     kept = {};  // first: both at once may be too much
-    kept.table = unpack_table(fields, number, std::move(rows));
+    unpacker(kept.table);
+    if (sent.id == 0) {
+      unpacker(kept.table.features);
+    } else if (rows) {
+      kept.table.features = rows->take(sent.objects);
+    } else {
+      throw RunError("the rows of a feature table are not there");
+    }
+    kept.rows_id = sent.id;
   }
-  kept.shared_as = shared_as;
+  kept.broadcast_id = broadcast_id;
   return {};
 }
 
 RankWork make_gram_work(std::string_view context, RankState& kept) {
-  Unpacker fields(context);
-  const FeatureTable& table = check_ticket(fields, kept).table;
-  const auto kind = fields.get<KernelKind>();
-  const std::vector<GramTask> tasks = gram_tasks(table, kind);
-  kept.gram = unfilled_gram(table, kind);
+  const auto [ticket, kernel] = unpack<GramContext>(context);
+  const FeatureTable& table = check_ticket(ticket, kept).table;
+  const std::vector<GramTask> tasks = gram_tasks(table, kernel);
+  kept.gram = unfilled_gram(table, kernel);
   kept.missing_strips.assign(tasks.size(), true);
-  RankWork work = gram_work(table, kind);
+  RankWork work = gram_work(table, kernel);
   work.keep = [&kept, tasks](std::size_t i, std::string_view result) {
     put_strip(tasks.at(i), result, kept.gram);
     kept.missing_strips[i] = false;
@@ -267,18 +241,8 @@ RankWork make_gram_work(std::string_view context, RankState& kept) {
 }
 
 Work make_judges_work(std::string_view context, const RankState& kept) {
-  Unpacker fields(context);
-  check_ticket(fields, kept);
-  JudgeSettings settings;
-  settings.kernel = fields.get<KernelKind>();
-  settings.c = fields.get<double>();
-  settings.class_weights = fields.get<bool>();
-  std::vector<TrainingPlan> trainings;
-  while (!fields.empty()) {
-    TrainingPlan& plan = trainings.emplace_back();
-    plan.train = fields.get_values<std::uint32_t>();
-    plan.held_out = fields.get_values<std::uint32_t>();
-  }
+  auto [ticket, settings, trainings] = unpack<TrainingsContext>(context);
+  check_ticket(ticket, kept);
   return judges_work(std::make_shared<Trainings>(kept.table, kept.gram, settings, std::move(trainings)));
 }
 

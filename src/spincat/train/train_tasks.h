@@ -14,6 +14,7 @@
 #include "spincat/judge/judge_list.h"
 #include "spincat/parallel/packing.h"
 #include "spincat/parallel/task.h"
+#include "spincat/train/broadcast_rows.h"
 #include "spincat/train/feature_table.h"
 #include "spincat/train/trainings.h"
 
@@ -26,22 +27,31 @@ inline constexpr const char* kJudgesTasks = "judges";
 
 // What a rank keeps from one job to the next.
 struct RankState {
-  std::optional<TableRows> rows;  // of objects that were described, until they are a table
-  std::uint64_t shared_as = 0;    // what the table was shared as; 0: there is none
+  std::optional<TableRows> rows;   // of objects that were described, until they are a table
+  std::uint64_t broadcast_id = 0;  // of the table; 0: there is none
+  std::uint64_t rows_id = 0;       // of its rows, where they were taken as they came (BroadcastRows)
   FeatureTable table;
   GramMatrices gram;                 // of the table, strip by strip
   std::vector<bool> missing_strips;  // by gram_tasks(): not there yet
 };
 
-// Kept by the others, to train on it by other settings, too, each time under another number: of objects only their
+// Kept by the others, to train on it by other settings, too, each time under another id: of objects only their
 // categories, and the features only where ranks do not have them.
-void pack_table(const FeatureTable& table, std::uint64_t shared_as, Packer& packer);
+void pack_table(const FeatureTable& table, std::uint64_t broadcast_id, const BroadcastRows& rows, Packer& packer);
 
 // By which a rank knows whether it keeps what it should: it may have missed something.
 struct TableTicket {
-  std::uint64_t shared_as = 0;
+  std::uint64_t broadcast_id = 0;
   std::uint32_t matrices = 0;  // of inner products
 };
+
+void fields(auto& archive, MessageOf<TableTicket> auto& ticket) {
+  auto& [broadcast_id, matrices] = ticket;
+  archive(broadcast_id, matrices);
+}
+
+// What the rank keeps. Throws RunError when that is not what the ticket is for: it could not keep it.
+const RankState& check_ticket(const TableTicket& ticket, const RankState& kept);
 
 // One strip of one of the matrices of a GramMatrices.
 struct GramTask {
@@ -49,9 +59,13 @@ struct GramTask {
   std::uint32_t strip = 0;
 };
 
+void fields(auto& archive, MessageOf<GramTask> auto& task) {
+  auto& [matrix, strip] = task;
+  archive(matrix, strip);
+}
+
 // All of them, the longest first.
 std::vector<GramTask> gram_tasks(const FeatureTable& table, KernelKind kind);
-std::string pack(const GramTask& task);
 // All of the table's, still to be filled.
 GramMatrices unfilled_gram(const FeatureTable& table, KernelKind kind);
 // Puts the result of such a task into it.
@@ -65,23 +79,23 @@ struct JudgesTask {
   std::uint32_t last = 0;
 };
 
+void fields(auto& archive, MessageOf<JudgesTask> auto& task) {
+  auto& [training, first, last] = task;
+  archive(training, first, last);
+}
+
 std::vector<JudgesTask> judges_tasks(const FeatureTable& table, KernelKind kind,
                                      std::span<const TrainingPlan> trainings);
-std::string pack(const JudgesTask& task);
 // Of a training that folds: puts the judges into `list`, from judge `first` on.
 void put_folded(std::string_view result, std::uint32_t first, JudgeList& list);
 // Of one that does not.
 std::vector<Judge> unpack_judges(std::string_view result);
 // Margins of the judged objects: a row for each of `objects` (or of their views), a column for each judge of the task.
 FeatureMatrix unpack_margins(std::string_view result, std::size_t objects);
-void pack_trainings(const TableTicket& expected, const JudgeSettings& settings, std::span<const TrainingPlan> trainings,
+void pack_gram_context(const TableTicket& ticket, KernelKind kernel, Packer& packer);
+void pack_trainings(const TableTicket& ticket, const JudgeSettings& settings, std::span<const TrainingPlan> trainings,
                     Packer& packer);
 Work judges_work(std::shared_ptr<Trainings> trainings);
-
-// For a context.
-void pack_ticket(const TableTicket& expected, Packer& packer);
-// What the rank keeps. Throws RunError when that is not what is expected: it could not keep it.
-const RankState& check_ticket(Unpacker& fields, const RankState& kept);
 
 // The same works on other ranks, from what they keep.
 Work make_table_work(std::string_view context, RankState& kept);

@@ -8,7 +8,7 @@
 namespace spincat {
 namespace {
 
-constexpr Eigen::Index kMostSharedProducts = 16'384 * 16'384;
+constexpr Eigen::Index kMostProducts = 16'384 * 16'384;
 constexpr std::uint64_t kCodebookPurpose = 102;  // of derive_seed
 
 // Local features to learn a codebook from: the first ones of each row, as many from each, within a bound.
@@ -39,8 +39,8 @@ FeatureMatrix counted_rows(const FeatureTable& table, const Codebook& codebook, 
 
 }  // namespace
 
-bool may_share_gram(Eigen::Index rows, Eigen::Index matrices) {
-  return rows * rows <= kMostSharedProducts / matrices;
+bool fits_gram(Eigen::Index rows, Eigen::Index matrices) {
+  return rows * rows <= kMostProducts / matrices;
 }
 
 Training::Training(const FeatureTable& table, const GramMatrices& gram, std::span<const std::uint32_t> objects,
@@ -60,7 +60,7 @@ const FeatureMatrix& Training::learn_words(std::span<const std::uint32_t> rows) 
   const std::uint64_t seed = derive_seed(table_.seed, kCodebookPurpose);
   codebook_ = learn_codebook(codebook_samples(table_, rows), table_.words, seed, 1);
   counted_ = counted_rows(table_, codebook_, rows);
-  if (may_share_gram(counted_.rows(), 1)) {
+  if (fits_gram(counted_.rows(), 1)) {
     const std::vector<std::uint32_t> words = {static_cast<std::uint32_t>(counted_.cols())};
     counted_gram_ = make_shared_gram(settings_.kernel, words, counted_, 1);
   }

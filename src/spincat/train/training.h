@@ -15,7 +15,7 @@ namespace spincat {
 
 // Whether inner products of so many rows, in so many matrices, are worth keeping: below a gigabyte (16,384 rows with
 // one matrix).
-bool may_share_gram(Eigen::Index rows, Eigen::Index matrices);
+bool fits_gram(Eigen::Index rows, Eigen::Index matrices);
 
 // A training on some objects of a table and their copies. Where the table holds local features, their codebook is
 // learned first, from these objects alone. Judges may be trained by several threads at once. Deterministic.

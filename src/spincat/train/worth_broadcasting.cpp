@@ -10,8 +10,8 @@ std::size_t count_trainings(std::size_t trainings, bool calibrated) {
 
 // Rough: a core does 10^10 products a second, and 10^9 bytes a second leave this process.
 bool worth_broadcasting(const TableSize& table, std::size_t trainings, const TaskFarm& farm) {
-  if (farm.ranks() < 2 || farm.always_broadcasts()) {
-    return farm.ranks() > 1;
+  if (farm.ranks() < 2) {
+    return false;
   }
   const auto rows = static_cast<double>(table.rows);
   const auto length = static_cast<double>(table.length);
@@ -22,7 +22,7 @@ bool worth_broadcasting(const TableSize& table, std::size_t trainings, const Tas
   const double seconds_here = (gram + static_cast<double>(trainings) * training) / 1e10 / farm.threads();
   const double bytes = 4.0 * (rows * length + rows * rows);
   const double seconds_sending = bytes * (farm.ranks() - 1) / 1e9;
-  return 0.5 * seconds_here > seconds_sending;
+  return seconds_here > farm.policy().gain_of_broadcast * seconds_sending;
 }
 
 }  // namespace spincat

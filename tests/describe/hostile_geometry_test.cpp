@@ -81,9 +81,9 @@ const Model& model_for(const std::string& name) {
   if (!models.contains(name)) {
     const test::TempDir dir;
     test::write_tiny_shapes(dir, "shapes", 3);
-    models[name] = train(read_dataset({dir / "shapes"}), all_settings().at(name), {.threads = 2}).model;
+    models.emplace(name, train(read_dataset({dir / "shapes"}), all_settings().at(name), {.threads = 2}).model);
   }
-  return models[name];
+  return models.at(name);
 }
 
 void expect_valid(const Classification& answer, std::size_t categories, const std::string& what) {

@@ -23,6 +23,7 @@
 #include "app/terminal/help_format.h"
 #include "app/terminal/interrupt.h"
 #include "app/terminal/messages.h"
+#include "app/terminal/parse_errors.h"
 #include "spincat/error.h"
 #include "spincat/parallel/placement.h"
 #include "spincat/parallel/task_farm.h"
@@ -48,10 +49,7 @@ int fail(const std::string& problem, int code) {
 
 // Wrong use in one line; --help and --version print and succeed.
 int report_parse_error(const CLI::App& cli, const CLI::ParseError& error) {
-  if (error.get_exit_code() == 0) {
-    return cli.exit(error);
-  }
-  return fail(std::string(error.what()) + " (spincat --help tells more)", 2);
+  return error.get_exit_code() == 0 ? cli.exit(error) : fail(parse_error_text(cli, error), 2);
 }
 
 // What was printed must have arrived: a full disk behind "> file" is an error.
@@ -114,7 +112,7 @@ int run(int argc, char** argv, TaskFarm& farm) {
 // MPI's end would wait for the rank that has gone.
 [[noreturn]] void leave_abandoned(const Launch& launch) {
   if (launch.number == 1) {  // one voice is enough
-    message("rank 0 or the launcher has gone; the same command may be given again");
+    message("rank 0 or the launcher has gone; run the same command again to continue");
   }
   std::_Exit(1);
 }

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "app/terminal/messages.h"
+#include "app/terminal/parse_errors.h"
 #include "spincat/error.h"
 #include "spincat/files/file.h"
 #include "spincat/parallel/for_each.h"
@@ -49,7 +50,7 @@ const char* group_of(SettingStage stage) {
 void add_limit(CLI::App& command, const char* name, std::size_t& limit, std::size_t most, const char* help) {
   command.add_option(name, limit, help)
       ->group("Limits while reading")
-      ->check(CLI::Range(std::size_t{1}, most))
+      ->check(in_range({1.0, static_cast<double>(most)}))
       ->type_name("N")
       ->capture_default_str();
 }
@@ -58,7 +59,7 @@ void add_limit(CLI::App& command, const char* name, std::size_t& limit, std::siz
 
 void RunOptions::add_to(CLI::App& command) {
   command.add_option("--threads", threads, "Threads to use; 0 means one for each processor")
-      ->check(CLI::Range(0, 4096))
+      ->check(in_range({0, 4096}))
       ->type_name("N")
       ->capture_default_str();
   command.add_flag("--json", json, "Print JSON for programs instead of a table");
@@ -68,9 +69,10 @@ void RunOptions::add_to(CLI::App& command) {
 void RunOptions::add_farm_options_to(CLI::App& command) {
   const std::string group = "Many processes (mpirun, srun)";
   command
-      .add_option("--journal", journal,
-                  "Keep finished tasks in this file, so that the same command goes on where it was ended; none: keep "
-                  "none (under mpirun and srun: OUTPUT.journal)")
+      .add_option(
+          "--journal", journal,
+          "Record finished tasks in FILE so that the same command can resume; none turns this off (under mpirun "
+          "and srun: OUTPUT.journal)")
       ->group(group)
       ->type_name("FILE");
   command
@@ -119,7 +121,7 @@ void DatasetArguments::add_to(CLI::App& command, bool required) {
       .add_option("--map", options.category_map,
                   "A CSV file with the columns class,category: keep these classes, under these names")
       ->type_name("FILE");
-  command.add_flag("--strict", strict, "An object that cannot be read is an error, not left out");
+  command.add_flag("--strict", strict, "Stop at an object that cannot be read (default: skip it and say so)");
   add_limit_options(command, options.limits);
 }
 

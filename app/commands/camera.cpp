@@ -17,6 +17,7 @@
 #include "app/options.h"
 #include "app/terminal/interrupt.h"
 #include "app/terminal/messages.h"
+#include "app/terminal/parse_errors.h"
 #include "spincat/classify/recogniser.h"
 #include "spincat/describe/stopwatch.h"
 #include "spincat/error.h"
@@ -53,7 +54,7 @@ Eigen::Vector3f parse_direction(const std::string& text) {
     const auto [next, error] = std::from_chars(at, end, v[i]);
     const bool followed = i < 2 ? next != end && *next == ',' : next == end;
     if (error != std::errc{} || !followed) {
-      throw InputError(fmt::format("--up {}: expected three numbers, as in 0,-1,0", text));
+      throw InputError(fmt::format("--up-direction {}: expected three numbers, as in 0,-1,0", text));
     }
     at = next + (i < 2 ? 1 : 0);
   }
@@ -62,7 +63,7 @@ Eigen::Vector3f parse_direction(const std::string& text) {
 
 RecogniserSettings recogniser_settings(const CameraArguments& a) {
   RecogniserSettings settings;
-  settings.segment.split = a.split == "concave" ? SegmentSplit::concave : SegmentSplit::footprint;
+  settings.segment.split = a.split == "concave" ? SegmentSplit::concave : SegmentSplit::none;
   settings.reject = a.reject;
   if (a.up) {
     settings.table.up = parse_direction(*a.up);
@@ -262,7 +263,7 @@ void add_source_options(CLI::App& command, CameraArguments& a) {
       ->check(CLI::PositiveNumber)
       ->type_name("N");
   command.add_option("--every", a.every, "Look at every N-th frame only")
-      ->check(CLI::Range(1, 1'000'000))
+      ->check(in_range({1, 1'000'000}))
       ->type_name("N")
       ->capture_default_str();
   command.add_flag("--realtime", a.real_time,
@@ -299,13 +300,13 @@ Command add_camera(CLI::App& parent) {
       ->type_name("HOW")
       ->capture_default_str();
   command
-      ->add_option("--up", arguments->up,
+      ->add_option("--up-direction", arguments->up,
                    "What is up for the camera, as x,y,z (x right, y down, z forward): tells a table from a wall")
       ->type_name("X,Y,Z");
   command
       ->add_option("--reject", arguments->reject,
                    "Answer 'unknown' where the confidence is below this: for objects of none of the categories")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(in_range({0.0, 1.0}))
       ->type_name("P");
   command->add_option("--record", arguments->record, "Also keep the frames: a folder that SOURCE may name later")
       ->type_name("DIR");

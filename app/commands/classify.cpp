@@ -16,6 +16,7 @@
 #include "app/ranks/farm_run.h"
 #include "app/terminal/answer_printer.h"
 #include "app/terminal/messages.h"
+#include "app/terminal/parse_errors.h"
 #include "app/terminal/progress_bar.h"
 #include "spincat/error.h"
 
@@ -47,7 +48,7 @@ struct KindMismatches {
   void tell() const {
     if (count > 0) {
       std::fflush(stdout);
-      message(first + (count > 1 ? fmt::format(" ({} more are of such a kind)", count - 1) : ""));
+      message(first + (count > 1 ? fmt::format(" (and {} more)", count - 1) : ""));
     }
   }
 };
@@ -158,7 +159,7 @@ Command add_classify(CLI::App& parent) {
   command
       ->add_option("--reject", arguments->look.reject,
                    "Answer 'unknown' where the confidence is below this: for objects of none of the categories")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(in_range({0.0, 1.0}))
       ->type_name("P");
   command->add_flag("--votes", arguments->look.votes, "Show what every judge said");
   add_report_option(*command, arguments->report);

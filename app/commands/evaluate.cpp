@@ -44,10 +44,10 @@ struct EvaluateArguments {
 // Exactly one way of choosing what is learned from and what is tested.
 void check_protocol(const EvaluateArguments& a) {
   if (a.train.empty() != a.test.empty()) {
-    throw InputError(a.train.empty() ? "--test asks for --train, too" : "--train asks for --test, too");
+    throw InputError(a.train.empty() ? "--test requires --train" : "--train requires --test");
   }
   if (a.dataset.sources.empty() == a.train.empty()) {
-    throw InputError("evaluate asks for a DATASET, or for --train and --test");
+    throw InputError("evaluate needs a DATASET, or --train and --test");
   }
   if (int{a.official} + int{a.options.leave_one_out} + int{!a.train.empty()} > 1) {
     throw InputError("--official, --leave-one-out and --train exclude each other");
@@ -198,7 +198,9 @@ Command add_evaluate(CLI::App& parent) {
       "  spincat evaluate furniture/ --splits 40 --split-seeds 1-4\n"
       "  spincat evaluate psb/ --map data/psb-furniture.csv --leave-one-out --json\n"
       "  spincat evaluate --train psb/ --map data/psb-furniture.csv --test furniture/\n"
-      "Without --leave-one-out, --official or --train there are repeated random splits, stratified by category.");
+      "Without --leave-one-out, --official or --train there are repeated random splits, stratified by category.\n"
+      "The rate of a category is also called its recall, the mean-class rate balanced accuracy, the overall rate "
+      "accuracy.");
   arguments->dataset.add_to(*command, false);
   add_split_options(*command, arguments->options);
   command->add_flag("--leave-one-out", arguments->options.leave_one_out,

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/terminal/messages.h"
+#include "app/terminal/parse_errors.h"
 #include "spincat/dataset/splits.h"
 #include "spincat/error.h"
 
@@ -60,7 +61,7 @@ std::vector<std::uint64_t> parse_seeds(std::string_view option, std::string_view
 
 void add_split_options(CLI::App& command, EvaluateOptions& options) {
   command.add_option("--splits", options.splits, "Random splits into training and test objects, for each seed")
-      ->check(CLI::Range(1, kMostSplits))
+      ->check(in_range({1, kMostSplits}))
       ->type_name("N")
       ->capture_default_str();
   command
@@ -74,12 +75,12 @@ void add_split_options(CLI::App& command, EvaluateOptions& options) {
         double share = 0.0;
         return CLI::detail::lexical_cast(text, share) && share > 0.0 && share < 1.0
                    ? std::string()
-                   : "expected more than 0 and less than 1, not " + text;
+                   : text + ": expected more than 0 and less than 1";
       })
       ->type_name("SHARE")
       ->capture_default_str();
   command.add_option("--min-objects", options.fewest_objects, "Leave out categories with fewer objects to learn from")
-      ->check(CLI::Range(1, 1'000'000))
+      ->check(in_range({1, 1'000'000}))
       ->type_name("N")
       ->capture_default_str();
 }
@@ -92,13 +93,14 @@ void TestArguments::add_to(CLI::App& command) {
       ->group(group)
       ->type_name("FORM")
       ->capture_default_str();
-  command.add_option("--noise", given.noise, "Of clouds: standard deviation along each axis, in diameters")
-      ->check(CLI::Range(0.0, 1.0))
+  command
+      .add_option("--noise", given.noise, "Noise of each test cloud: standard deviation along each axis, in diameters")
+      ->check(in_range({0.0, 1.0}))
       ->group(group)
       ->type_name("SHARE")
       ->capture_default_str();
-  command.add_option("--cloud-points", given.cloud_points, "Of clouds")
-      ->check(CLI::Range(1, 10'000'000))
+  command.add_option("--cloud-points", given.cloud_points, "Points of each test cloud")
+      ->check(in_range({1, 10'000'000}))
       ->group(group)
       ->type_name("N")
       ->capture_default_str();

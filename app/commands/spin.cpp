@@ -9,6 +9,7 @@
 #include "app/commands/commands.h"
 #include "app/options.h"
 #include "app/ranks/farm_run.h"
+#include "app/terminal/parse_errors.h"
 #include "app/terminal/progress_bar.h"
 #include "spincat/describe/dense_object.h"
 #include "spincat/describe/describe.h"
@@ -146,7 +147,7 @@ void check_outputs(const SpinArguments& arguments) {
     throw InputError(arguments.points_output.string(), "expected a name that ends in .npy");
   }
   if (place_of(arguments.points_output) == place_of(arguments.output)) {
-    throw InputError(arguments.output.string(), "is the name for both the images and the points");
+    throw InputError(arguments.output.string(), "--output and --points-output name the same file");
   }
   check_writable(arguments.points_output);
 }
@@ -222,7 +223,7 @@ Command add_spin(CLI::App& parent) {
       ->type_name("FILE");
   command->add_option("--sheet", arguments->sheet, "Images on a contact sheet, evenly chosen")
       ->type_name("N")
-      ->check(CLI::Range(1, 1'000))
+      ->check(in_range({1, 1'000}))
       ->type_name("N")
       ->capture_default_str();
   arguments->settings.add_to(*command, SettingStage::images, own_settings());

@@ -109,7 +109,7 @@ Command add_sweep(CLI::App& parent) {
       "where it stopped when it "
       "is\nasked for again: FILE.journal knows what is done.");
   arguments->dataset.add_to(*command);
-  command->add_option("--vary", arguments->vary, "A setting and the values it is to take; once or twice")
+  command->add_option("--vary", arguments->vary, "A setting and its values; give it once or twice")
       ->type_name("SETTING=A,B,...")
       ->allow_extra_args(false)
       ->required();

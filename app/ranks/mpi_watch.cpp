@@ -135,7 +135,7 @@ namespace {
 // Not exit(): what it would call belongs to a thread that hangs in MPI.
 [[noreturn]] void give_up_start(const Launch& launch, const HostRanks& host, const char* reason) {
   if (launch.number == 0) {
-    message(fmt::format("{} while MPI started; the same command may be given again", reason));
+    message(fmt::format("{} while MPI started; run the same command again to continue", reason));
   }
   host.kill_stopped();  // the launcher would wait for them for ever
   std::_Exit(1);

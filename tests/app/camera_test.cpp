@@ -395,8 +395,8 @@ TEST_F(CameraCommand, RefusesWrongUseInOneLine) {
   refused("m.spincat nowhere", "nowhere: no such file");
   refused("m.spincat shapes", "holds no depth pictures");
   refused("shapes/box/0.off frames", "is not a spincat file");
-  refused("m.spincat frames --up 0,1", "expected three numbers");
-  refused("m.spincat frames --up 0,0,0", "up");
+  refused("m.spincat frames --up-direction 0,1", "expected three numbers");
+  refused("m.spincat frames --up-direction 0,0,0", "up");
   refused("m.spincat frames --view 99999", "expected a port");
   refused("m.spincat frames --split round", "--split");
   refused("m.spincat frames --intrinsics nothing.txt", "nothing.txt");

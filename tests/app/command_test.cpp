@@ -277,16 +277,22 @@ TEST_F(Command, WrongUseAndBadInputAreOneLineAndExitTwo) {
       {"train shapes -o x.spincat --bin-size 1inch", "--bin-size 1inch"},
       {"train shapes -o x.spincat --bin-size -1", "--bin-size -1: expected a number above 0"},
       {"train shapes -o x.spincat --encoding hash", "encoding 'hash'"},
-      {"evaluate shapes --splits 0", "--splits"},
-      {"evaluate shapes --test-share 1", "--test-share: expected more than 0 and less than 1"},
+      {"evaluate shapes --splits 0", "--splits 0: expected 1 to 10,000"},
+      {"evaluate shapes --test-share 1", "--test-share 1: expected more than 0 and less than 1"},
       {"evaluate shapes --split-seeds 1-", "--split-seeds 1-: expected whole numbers"},
       {"evaluate shapes --split-seeds 1,2,1-3", "--split-seeds 1,2,1-3: expected up to 1000 numbers, each once"},
-      {"evaluate shapes --min-objects 0", "--min-objects"},
+      {"evaluate shapes --min-objects 0", "--min-objects 0: expected 1 to 1,000,000"},
+      {"evaluate shapes --split 3", "unknown option --split; did you mean --splits? (spincat evaluate --help)"},
+      {"train", "train needs a DATASET (spincat train --help)"},
+      {"info", "info needs a FILE (spincat info --help)"},
+      {"train shapes -o x.spincat --thread 2",
+       "unknown option --thread; did you mean --threads? (spincat train --help)"},
+      {"info new-cone.off more.off", "unexpected argument 'more.off' (spincat info --help)"},
       {"evaluate shapes --test-as pudding", "--test-as 'pudding' is not known"},
-      {"evaluate shapes --noise 2", "--noise"},
-      {"evaluate", "evaluate asks for a DATASET, or for --train and --test"},
-      {"evaluate --train shapes", "--train asks for --test"},
-      {"evaluate shapes --train shapes --test shapes", "evaluate asks for a DATASET, or for --train and --test"},
+      {"evaluate shapes --noise 2", "--noise 2: expected 0 to 1"},
+      {"evaluate", "evaluate needs a DATASET, or --train and --test"},
+      {"evaluate --train shapes", "--train requires --test"},
+      {"evaluate shapes --train shapes --test shapes", "evaluate needs a DATASET, or --train and --test"},
       {"evaluate --train shapes --test shapes", "is in both data sets"},
       {"evaluate shapes --official --leave-one-out", "exclude each other"},
       {"evaluate shapes --official", "shapes: has no split of its own"},
@@ -296,8 +302,8 @@ TEST_F(Command, WrongUseAndBadInputAreOneLineAndExitTwo) {
       {"sweep shapes --vary c=1,", "--vary c=1,: expected a setting and its values"},
       {"sweep shapes --vary colour=1", "setting 'colour' is not known"},
       {"sweep shapes --vary c=1 -o s.txt", "s.txt: expected a name that ends in .json or .csv"},
-      {"classify shapes.spincat new-cone.off --reject 2", "--reject"},
-      {"classify shapes.spincat", "files is required"},
+      {"classify shapes.spincat new-cone.off --reject 2", "--reject 2: expected 0 to 1"},
+      {"classify shapes.spincat", "classify needs at least one FILE (spincat classify --help)"},
       {"classify new-cone.off new-cone.off", "new-cone.off: is not a spincat"},
       {"classify shapes.spincat shapes.spincat", "shapes.spincat: is a spincat model, not an object"},
       {"classify shapes.spincat absent.off", "absent.off: no such file"},
@@ -307,7 +313,7 @@ TEST_F(Command, WrongUseAndBadInputAreOneLineAndExitTwo) {
       {"classify shapes.spincat same.xyz", "same.xyz: all its points are at one place"},
       {"classify shapes.spincat empty", "empty: holds no object files"},
       {"spin new-cone.off -o images.txt", "images.txt: expected a name that ends in .npy or .png"},
-      {"spin new-cone.off -o a.npy --points-output ./a.npy", "a.npy: is the name for both"},
+      {"spin new-cone.off -o a.npy --points-output ./a.npy", "a.npy: --output and --points-output name the same file"},
       {"spin new-cone.off -o a.npy --points-output a.txt", "a.txt: expected a name that ends in .npy"},
       {"train shapes -o x.spincat --seed -1", "--seed"},
       {"train split.csv -o x.spincat", "split.csv: line 2: split 'Train' is not known"},
@@ -540,8 +546,8 @@ TEST_F(Command, ViewsAreTaughtAndMeasuredAndClassifySaysWhatAMeshIsToThem) {
   EXPECT_EQ(named.code, 0);
   EXPECT_EQ(
       named.err,
-      "spincat: new box.off: is a mesh, but the judges were trained by views: they see one view of it (1 more are "
-      "of such a kind)\n");
+      "spincat: new box.off: is a mesh, but the judges were trained by views: they see one view of it (and 1 more)"
+      "\n");
   EXPECT_EQ(run("classify views.spincat new-cone.off --quiet").err, "");
   const Json measured = Json::parse(run("evaluate shapes --splits 2 --json" + small).out);
   ASSERT_EQ(measured.at("views").size(), 3U);

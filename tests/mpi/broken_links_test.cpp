@@ -107,7 +107,7 @@ TEST_P(BrokenLinks, WithoutMemoryTheResultIsRightOrThereIsNone) {
 
 TEST_P(BrokenLinks, ARankStoppedWhileMpiStartsEndsTheRunWithAWord) {
   const RunResult result = train_with("1 MPI_Init_thread 1");
-  EXPECT_NE(result.err.find("spincat: a rank did not answer while MPI started; the same command may be given again"),
+  EXPECT_NE(result.err.find("spincat: a rank did not answer while MPI started; run the same command again to continue"),
             std::string::npos)
       << result.err;
   EXPECT_FALSE(fs::exists(dir_.path() / "ranks.spincat"));

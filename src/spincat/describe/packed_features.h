@@ -39,7 +39,7 @@ struct PackedFeatures {
 inline PackedFeatures view_features(Unpacker& fields) {
   const std::string_view numbers = fields.get_text();
   if (numbers.size() % sizeof(float) != 0) {
-    throw RunError("a message between ranks holds half a number");
+    throw RunError("a damaged message between ranks: half a number");
   }
   return {fields.next<FeatureVector>(), FeatureBytes(numbers)};
 }

@@ -105,7 +105,7 @@ TEST_P(SplitWays, MeasureAnObject) {
   EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(found.ids, left.id)), left.pixels);
 }
 
-INSTANTIATE_TEST_SUITE_P(Ways, SplitWays, testing::Values(SegmentSplit::concave, SegmentSplit::footprint));
+INSTANTIATE_TEST_SUITE_P(Ways, SplitWays, testing::Values(SegmentSplit::concave, SegmentSplit::none));
 
 TEST(Segment, PartsStackedBoxesAlongTheirGroove) {
   Scene scene;
@@ -115,7 +115,7 @@ TEST(Segment, PartsStackedBoxesAlongTheirGroove) {
   for (const double share : agreement(scene, found)) {
     EXPECT_GT(share, 0.75);
   }
-  EXPECT_EQ(segmented(scene, SegmentSplit::footprint).objects.size(), 1U);
+  EXPECT_EQ(segmented(scene, SegmentSplit::none).objects.size(), 1U);
 }
 
 TEST(Segment, KeepsATableTogetherByItsFootprint) {
@@ -126,7 +126,7 @@ TEST(Segment, KeepsATableTogetherByItsFootprint) {
       scene.things.push_back(moved(test::box(0.02, 0.02, 0.18), {x, y, 0.09}));
     }
   }
-  const Segmentation found = segmented(scene, SegmentSplit::footprint);
+  const Segmentation found = segmented(scene, SegmentSplit::none);
   EXPECT_EQ(found.objects.size(), 1U);
 }
 
@@ -135,7 +135,7 @@ TEST(Segment, SaysWhyThereIsNoObject) {
   scene.things = {moved(test::box(0.012, 0.012, 0.03), {-0.2, 0.0, 0.015}),  // small
                   moved(test::box(0.2, 0.2, 0.012), {0.1, 0.0, 0.006}),      // flat
                   moved(test::box(0.1, 0.1, 0.1), {0.0, 0.75, 0.1})};        // behind the table's edge
-  const Segmentation found = segmented(scene, SegmentSplit::footprint);
+  const Segmentation found = segmented(scene, SegmentSplit::none);
   EXPECT_TRUE(found.objects.empty());
   EXPECT_GT(found.left_out.too_few, 20U);
   EXPECT_LT(found.left_out.too_few, 300U);
@@ -146,7 +146,7 @@ TEST(Segment, SaysWhyThereIsNoObject) {
 TEST(Segment, SaysThatThePictureCutsAnObject) {
   Scene scene;
   scene.things = {moved(test::box(0.3, 0.1, 0.1), {-0.55, 0.0, 0.05})};
-  const Segmentation found = segmented(scene, SegmentSplit::footprint);
+  const Segmentation found = segmented(scene, SegmentSplit::none);
   ASSERT_EQ(found.objects.size(), 1U);
   EXPECT_TRUE(found.objects[0].cut);
 }
@@ -163,7 +163,7 @@ TEST(SegmentSettings, AreRefusedOutOfRange) {
 TEST(SegmentCloud, StandsUprightWithTheNormalsOfTheSides) {
   Scene scene;
   scene.things = {moved(test::box(0.2, 0.2, 0.1), {0.0, 0.0, 0.05})};
-  const Segmentation found = segmented(scene, SegmentSplit::footprint);
+  const Segmentation found = segmented(scene, SegmentSplit::none);
   ASSERT_EQ(found.objects.size(), 1U);
   const PointCloud cloud = segment_cloud(scene.picture(), scene.intrinsics, scene.table(), found, found.objects[0]);
   ASSERT_EQ(cloud.points.size(), cloud.normals.size());

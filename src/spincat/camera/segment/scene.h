@@ -29,12 +29,12 @@ struct TableSettings {
 
 // How readings that hang together are parted into objects.
 enum class SegmentSplit {
-  concave,    // along grooves: for things that touch or stand on each other, like boxes
-  footprint,  // by what stands apart on the table: for things with legs and thin parts, like furniture
+  concave,  // along grooves: for things that touch or stand on each other, like boxes
+  none,     // by what stands apart on the table: for things with legs and thin parts, like furniture
 };
 
 struct SegmentSettings {
-  SegmentSplit split = SegmentSplit::footprint;
+  SegmentSplit split = SegmentSplit::none;
   int least_pixels = 300;       // of an object
   float least_height = 0.015F;  // metres over the table that an object reaches
   float most_height = 0.6F;     // metres over the table; what is higher is not looked at

@@ -46,7 +46,7 @@ std::unordered_map<std::uint32_t, Segment> measured(const DepthImage& image, con
 Labels patches_of(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table,
                   const SegmentSettings& settings, NotObjects& left_out) {
   const Labels over = pixels_over_table(image, intrinsics, table, settings, left_out);
-  if (settings.split == SegmentSplit::footprint) {
+  if (settings.split == SegmentSplit::none) {
     return gather_by_footprint(image, intrinsics, table, over);
   }
   return split_at_grooves(image, intrinsics, linked_patches(image, over, kGap));

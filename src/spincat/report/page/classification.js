@@ -188,7 +188,7 @@ function objectsCard() {
 
 const step = (by, label) => el('button', { type: 'button', 'aria-label': by < 0 ? 'the object before' : 'the next object', onclick: () => showObject((current + by + objects.length) % objects.length) }, label);
 showPage('Names of ' + countText(objects.length, 'object'),
-  el('h1', {}, 'What ', objects.length === 1 ? nameText(shortName(objects[0])) : countText(objects.length, 'object'), objects.length === 1 ? ' is' : ' are'),
+  el('h1', {}, objects.length === 1 ? nameText(shortName(objects[0])) : countText(objects.length, 'object'), ' classified'),
   el('p', { class: 'soft' }, 'Named by ', nameText(data.model.file), ', which learned ', countText(categories.length, 'category', 'categories'), ' from ', nameText(data.model.dataset), '.'),
   ...(objects.length > 1 ? [objectsCard()] : []),
   el('section', { class: 'card' },

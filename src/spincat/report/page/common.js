@@ -98,7 +98,7 @@ const shellWord = (word) => /^[A-Za-z0-9_@%+=:,./-]+$/.test(word) ? word : "'" +
 function repeatCard(run, settings, facts) {
   const rows = Object.entries(run).filter(([key]) => key !== 'command')
     .map(([key, value]) => [key, typeof value === 'string' ? value : JSON.stringify(value)]);
-  return card('How to repeat it', null,
+  return card('Reproduce this page', null,
     el('pre', { id: 'command' }, nameText(run.command.map(shellWord).join(' '))),
     el('div', { class: 'columns' },
       el('div', {}, el('h3', {}, 'Run'), keyTable([...facts, ...rows])),

@@ -24,7 +24,7 @@ function headline() {
     el('div', { class: 'soft small' }, '95 % interval ', el('span', { class: 'interval' }, spanText(result[key + '_interval']))));
   return el('div', { class: 'headline' },
     figure('mean-class-rate', 'Mean-class rate', 'mean_class_rate'), figure('overall-rate', 'Overall rate', 'overall_rate'),
-    result.confidence ? el('div', { id: 'confidence' }, el('div', { class: 'soft' }, 'Confidence tells right from wrong'),
+    result.confidence ? el('div', { id: 'confidence' }, el('div', { class: 'soft' }, 'AUC of the confidence (right vs wrong)'),
       el('div', { class: 'big' }, rateText(result.confidence.right_or_wrong_auc)),
       el('div', { class: 'soft small' }, 'area under the curve; ' + rateText(result.confidence.mean) + ' on average')) : null);
 }
@@ -101,7 +101,7 @@ function confusedCard() {
     if (truth !== named && count > 0) pairs.push({ truth, named, count, share: count / rowTotals[truth] });
   }));
   pairs.sort((a, b) => b.share - a.share || b.count - a.count);
-  if (pairs.length === 0) return card('Most often confused', 'No object was named wrong.');
+  if (pairs.length === 0) return card('Most often confused', 'Every object was named correctly.');
   return card('Most often confused', 'By the share of the category’s tests.', el('div', { id: 'confused' },
     pagedTable([['is', 'name'], ['was named', 'name'], ['times', 'number'], ['share', 'number']], pairs, (pair) =>
       [nameText(categories[pair.truth]), nameText(categories[pair.named]), pair.count, shareText(pair.share)], 12)));
@@ -126,7 +126,7 @@ function objectsCard() {
   const place = el('div', { class: 'panel', id: 'objects' });
   const fill = (wanted) => {
     const found = all.filter((i) => (objectName(i) + '\n' + categories[tested.truth[i]]).toLowerCase().includes(wanted.toLowerCase()));
-    place.replaceChildren(pagedTable([['object', 'name'], ['is', 'name'], ['mostly named', 'name'], ['right', 'number']], found, (i) =>
+    place.replaceChildren(pagedTable([['object', 'name'], ['is', 'name'], ['most often named', 'name'], ['right', 'number']], found, (i) =>
       [nameText(objectName(i)), nameText(categories[tested.truth[i]]), nameText(categories[mostNamed(i)]), shareText(rightShare(i))]));
   };
   fill('');
@@ -142,7 +142,7 @@ function leftOutCard() {
 }
 
 showPage('Evaluation of ' + result.dataset,
-  el('h1', {}, 'How often the names are right: ', nameText(result.dataset)),
+  el('h1', {}, 'Accuracy on ', nameText(result.dataset)),
   el('p', { class: 'soft' }, countText(result.objects, 'object'), ', ', countText(categories.length, 'category', 'categories'), ', ', nameText(protocolText())),
   headline(), matrixCard(),
   el('div', { class: 'columns' }, ratesCard(), confusedCard()),

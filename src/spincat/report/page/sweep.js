@@ -71,7 +71,7 @@ function curves() {
     card('Rate', 'Mean over the splits; the bars are one standard deviation.', lineChart(values, [
       { name: 'mean-class rate', colour: 'rgb(var(--right))', points: rate('mean_class_rate') },
       { name: 'overall rate', colour: 'rgb(var(--wrong))', points: rate('overall_rate') }], null, [0, 1])),
-    card('Time by stage', 'Added up over threads; describing is given with every point, also where features were shared.', lineChart(values, stages, secondsText)));
+    card('Time by stage', 'Summed over threads. Time for features is repeated in every row, even where they were computed once.', lineChart(values, stages, secondsText)));
 }
 
 function heatMap(title, note, valueOf, text, kind) {
@@ -90,12 +90,12 @@ function heatMap(title, note, valueOf, text, kind) {
 
 const spread = (point, key) => rateText(point[key]) + ' ± ' + rateText(point[key + '_std']);
 showPage('Sweep of ' + settings.join(' and '),
-  el('h1', {}, 'What ', ...settings.flatMap((setting, i) => [i ? ' and ' : '', nameText(setting)]), settings.length > 1 ? ' do' : ' does'),
+  el('h1', {}, 'Effect of ', ...settings.flatMap((setting, i) => [i ? ' and ' : '', nameText(setting)])),
   el('p', { class: 'soft' }, nameText(result.dataset), ', ', countText(result.objects, 'object')),
   ...(settings.length > 1 ? [el('div', { class: 'columns' },
     heatMap('Mean-class rate', 'Mean over the splits.', (point) => point.mean_class_rate, (point) => rateText(point.mean_class_rate), 'right'),
     heatMap('Time', 'Of all stages, added up over threads.', totalSeconds, (point) => secondsText(totalSeconds(point)), 'wrong'))] : [curves()]),
-  card('Every point', null, el('div', { id: 'points' }, pagedTable(
+  card('All results', null, el('div', { id: 'points' }, pagedTable(
     [...settings.map((setting) => [setting, 'name']), ['mean-class rate', 'number'], ['overall rate', 'number'], ['time', 'number']], result.points,
     (point) => [...settings.map((setting) => nameText(point.values[setting])), spread(point, 'mean_class_rate'), spread(point, 'overall_rate'), secondsText(totalSeconds(point))]))),
   repeatCard(result.run, result.settings, [['data set', result.dataset]]));

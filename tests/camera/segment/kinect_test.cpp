@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "spincat/camera/segment/segment.h"
+#include "spincat/camera/segment/table.h"
 #include "spincat/camera/source/calibration.h"
 #include "spincat/camera/source/depth_png.h"
 #include "spincat/files/file.h"

@@ -264,7 +264,7 @@ TEST_F(Command, WrongUseAndBadInputAreOneLineAndExitTwo) {
   dir_.write("split.csv", "path,category,split\nnew-cone.off,cone,Train\n");
   fs::create_directory(dir_.path() / "empty");
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"", "subcommand"},
+      {"", "a command is missing (spincat --help)"},
       {"frobnicate", "frobnicate"},
       {"train shapes", "--output"},
       {"train shapes -o nowhere/x.spincat", "nowhere"},

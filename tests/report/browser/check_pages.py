@@ -74,8 +74,8 @@ def check_scaling(browser, _program, _data, scratch):
     source, page = os.path.join(scratch, "scaling.json"), os.path.join(scratch, "scaling.html")
     with open(source, "w", encoding="utf-8") as file:
         json.dump(found, file)
-    scripts = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../scripts")
-    subprocess.run([sys.executable, "-B", os.path.join(scripts, "scaling_page.py"), source, page], check=True)
+    experiments = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../experiments")
+    subprocess.run([sys.executable, "-B", os.path.join(experiments, "scaling_page.py"), source, page], check=True)
     check_widths(browser, page)
     check(text(browser, ".formula") == "T = 0.1 s + 0.00000797 s W / p + 0.25 s [R > 1]", "the formula differs: " + text(browser, ".formula"))
     check(browser.run("document.querySelectorAll('svg.chart circle').length") == 3, "measured points are missing")

@@ -35,7 +35,8 @@ TEST(ClassifyFiles, ProblemsAreInNoJournal) {
   EXPECT_EQ(journal.size(), 12U);
   EvaluateOptions options;
   options.test.form = TestForm::turned;
-  describe_for_evaluation(shapes, test::tiny_settings(), options, execution);
+  BroadcastRows rows;
+  describe_for_evaluation(shapes, test::tiny_settings(), options, execution, rows);
   EXPECT_EQ(journal.size(), 3U * 12U);  // to learn from, and as they are tested
 }
 

@@ -220,14 +220,15 @@ TEST_F(Protocols, AJournalKeepsSplitsForTheSameDataAndSettings) {
   EvaluateOptions options;
   options.splits = 6;
   Settings settings = tiny_settings();
-  EvaluationData data = describe_for_evaluation(shapes(), settings, options);
-  const Evaluation expected = judge_evaluation(data, settings, options);
+  BroadcastRows rows;
+  EvaluationData data = describe_for_evaluation(shapes(), settings, options, {}, rows);
+  const Evaluation expected = judge_evaluation(data, settings, options, {}, rows);
   Journal journal(dir_ / "j", {"settings", "data"});
   Evaluation found;
   const auto resumed = [&](const Progress& progress = {}) {
     LocalFarm own(2);
     own.farm().use_journal(&journal);
-    found = judge_evaluation(data, settings, options, {.farm = &own.farm(), .progress = progress});
+    found = judge_evaluation(data, settings, options, {.farm = &own.farm(), .progress = progress}, {});
     return own.farm().report().resumed;
   };
   const Progress stop = [](std::string_view stage, std::size_t done, std::size_t) {

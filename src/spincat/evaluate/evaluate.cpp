@@ -8,7 +8,7 @@
 #include "spincat/dataset/parts.h"
 #include "spincat/dataset/splits.h"
 #include "spincat/describe/stopwatch.h"
-#include "spincat/evaluate/evaluation_steps.h"
+#include "spincat/evaluate/evaluation_data.h"
 #include "spincat/evaluate/roc.h"
 #include "spincat/evaluate/trial.h"
 #include "spincat/parallel/farm_execution.h"
@@ -282,11 +282,6 @@ std::vector<TestedObject> named_objects(const EvaluationData& data, std::span<co
 }
 
 }  // namespace
-
-Evaluation judge_evaluation(const EvaluationData& data, const Settings& settings, const EvaluateOptions& options,
-                            const Execution& execution) {
-  return judge_evaluation(data, settings, options, execution, BroadcastRows{});
-}
 
 Evaluation judge_evaluation(const EvaluationData& data, const Settings& settings, const EvaluateOptions& options,
                             const Execution& execution, const BroadcastRows& broadcast) {

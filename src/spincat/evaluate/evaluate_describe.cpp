@@ -10,7 +10,7 @@
 #include "spincat/describe/stopwatch.h"
 #include "spincat/error.h"
 #include "spincat/evaluate/evaluate.h"
-#include "spincat/evaluate/evaluation_steps.h"
+#include "spincat/evaluate/evaluation_data.h"
 #include "spincat/train/describe_dataset.h"
 #include "spincat/train/worth_broadcasting.h"
 
@@ -62,12 +62,6 @@ void EvaluateOptions::validate() const {
 }
 
 EvaluationData describe_for_evaluation(const Dataset& dataset, const Settings& settings, const EvaluateOptions& options,
-                                       const Execution& execution) {
-  BroadcastRows broadcast;
-  return describe_for_evaluation(dataset, settings, options, execution, broadcast);
-}
-
-EvaluationData describe_for_evaluation(const Dataset& dataset, const Settings& settings, const EvaluateOptions& options,
                                        const Execution& execution, BroadcastRows& broadcast) {
   options.validate();
   check_form(settings, options);
@@ -82,12 +76,6 @@ EvaluationData describe_for_evaluation(const Dataset& dataset, const Settings& s
   }
   data.wall_seconds = watch.lap();
   return data;
-}
-
-EvaluationData describe_across(const Dataset& train, const Dataset& test, const Settings& settings,
-                               const EvaluateOptions& options, const Execution& execution) {
-  BroadcastRows broadcast;
-  return describe_across(train, test, settings, options, execution, broadcast);
 }
 
 EvaluationData describe_across(const Dataset& train, const Dataset& test, const Settings& settings,

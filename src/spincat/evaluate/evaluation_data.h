@@ -10,6 +10,7 @@
 #include "spincat/evaluate/tested_objects.h"
 #include "spincat/execution.h"
 #include "spincat/settings/settings.h"
+#include "spincat/train/broadcast_rows.h"
 #include "spincat/train/feature_table.h"
 
 namespace spincat {
@@ -28,17 +29,18 @@ struct EvaluationData {
 };
 
 // Describes every object of the data set once, and again in the form it is tested in where that is another.
-// Throws InputError when options or settings are out of range, or fewer than two categories can be read.
+// `broadcast` then tells which rows of the table the other ranks of the farm have, until the next data set is
+// described. Throws InputError when options or settings are out of range, or fewer than two categories can be read.
 EvaluationData describe_for_evaluation(const Dataset& dataset, const Settings& settings, const EvaluateOptions& options,
-                                       const Execution& execution = {});
+                                       const Execution& execution, BroadcastRows& broadcast);
 
 // The same for judges that learn from one data set and are tested on another. Categories are matched by their names;
 // those missing on either side are left out. Throws as the above and common_categories (dataset/parts.h) do.
 EvaluationData describe_across(const Dataset& train, const Dataset& test, const Settings& settings,
-                               const EvaluateOptions& options, const Execution& execution = {});
+                               const EvaluateOptions& options, const Execution& execution, BroadcastRows& broadcast);
 
 // The other half of evaluate.
 Evaluation judge_evaluation(const EvaluationData& data, const Settings& settings, const EvaluateOptions& options,
-                            const Execution& execution = {});
+                            const Execution& execution, const BroadcastRows& broadcast);
 
 }  // namespace spincat

@@ -8,7 +8,7 @@
 
 #include "spincat/dataset/parts.h"
 #include "spincat/error.h"
-#include "spincat/evaluate/evaluation_steps.h"
+#include "spincat/evaluate/evaluation_data.h"
 #include "spincat/evaluate/sweep_journal.h"
 #include "spincat/settings/setting_table.h"
 #include "spincat/settings/settings_json.h"

@@ -355,13 +355,7 @@ class TaskFarm::Run {
     if (queue_.all_delivered()) {
       return;
     }
-    if (pause.count() == 0) {
-      std::this_thread::yield();
-    } else if (crew_) {
-      crew_->wait(pause);
-    } else {
-      std::this_thread::sleep_for(pause);
-    }
+    rest_beside(crew_.get(), pause);
   }
 
   TaskFarm& farm_;

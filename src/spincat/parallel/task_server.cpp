@@ -214,15 +214,7 @@ class Server {
            now - std::max(awake_since_, ranks_.heard(0)) > kPatience * silence_deadline();
   }
 
-  void rest(std::chrono::microseconds pause) {
-    if (pause.count() == 0) {
-      std::this_thread::yield();
-    } else if (crew_) {
-      crew_->wait(pause);
-    } else {
-      std::this_thread::sleep_for(pause);
-    }
-  }
+  void rest(std::chrono::microseconds pause) { rest_beside(crew_.get(), pause); }
 
   Communicator& ranks_;
   const WorkFactory& factory_;

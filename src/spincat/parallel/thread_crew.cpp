@@ -105,4 +105,14 @@ TaskResult ThreadCrew::do_task(const Given& given) const {
   return result;
 }
 
+void rest_beside(ThreadCrew* crew, std::chrono::microseconds pause) {
+  if (pause.count() == 0) {
+    std::this_thread::yield();
+  } else if (crew != nullptr) {
+    crew->wait(pause);
+  } else {
+    std::this_thread::sleep_for(pause);
+  }
+}
+
 }  // namespace spincat

@@ -51,4 +51,8 @@ class ThreadCrew {
   std::vector<std::jthread> threads_;
 };
 
+// Rests for `pause`, or until a task of the crew is finished where there is one; not at all, but for letting others
+// have the core, when the pause is 0.
+void rest_beside(ThreadCrew* crew, std::chrono::microseconds pause);
+
 }  // namespace spincat

@@ -63,7 +63,7 @@ TEST(DepthPng, RefusesWhatIsNoDepthPicture) {
   ASSERT_EQ(lodepng::encode(colours, std::vector<unsigned char>(12, 9), 2, 2, LCT_RGB, 8), 0U);
   EXPECT_NE(input_error([&] {
               decode_depth_png({reinterpret_cast<char*>(colours.data()), colours.size()}, 1000.0);
-            }).find("is a colour image; expected a 16-bit grey depth image"),
+            }).find("is a picture in colours where a 16-bit grey depth image was expected"),
             std::string::npos);
 }
 

@@ -56,7 +56,7 @@ DepthImage decode_depth_png(std::string_view bytes, double units_per_metre, cons
   unsigned height = 0;
   check(lodepng_inspect(&width, &height, &state, data, bytes.size()));
   if (state.info_png.color.colortype != LCT_GREY) {
-    throw InputError("is a colour image; expected a 16-bit grey depth image");
+    throw InputError("is a picture in colours where a 16-bit grey depth image was expected");
   }
   if (width > kMostPixels || height > kMostPixels) {
     throw InputError(fmt::format("is {} x {} pixels large (at most {} x {})", width, height, kMostPixels, kMostPixels));

@@ -12,8 +12,7 @@ target_compile_options(spincat_compiler INTERFACE
   # exactness (nobody here reads errno or floating-point traps) and let plain loops be vectorised.
   -ffp-contract=off -fno-math-errno -fno-trapping-math
   $<$<BOOL:${SPINCAT_WERROR}>:-Werror>
-  $<$<BOOL:${SPINCAT_ASSERTS}>:-UNDEBUG>
-  $<$<CONFIG:Release>:-O2>)
+  $<$<BOOL:${SPINCAT_ASSERTS}>:-UNDEBUG>)
 
 # Headers that nearly every file needs, read once: half of what compiling a small file takes.
 set(spincat_common_headers

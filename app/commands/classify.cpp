@@ -114,7 +114,7 @@ Classified classify_all(const Model& model, const std::vector<InputFile>& inputs
   return result;
 }
 
-RunIdentity identity_of(const Model& model, const std::vector<InputFile>& inputs, const ClassifyArguments& arguments) {
+RunIdentity batch_identity(const Model& model, const std::vector<InputFile>& inputs, const ClassifyArguments& arguments) {
   FilesIdentity data;
   data.add(arguments.model);
   for (const InputFile& input : inputs) {
@@ -127,7 +127,7 @@ int run_classify(const ClassifyArguments& arguments, TaskFarm& farm) {
   const Model model = read_model(arguments.model);
   const std::vector<InputFile> files = input_files(arguments.inputs);
   FarmRun run(farm, arguments.run);
-  run.keep_journal({}, [&] { return identity_of(model, files, arguments); });
+  run.keep_journal({}, [&] { return batch_identity(model, files, arguments); });
   check_report(arguments.report);
   const auto [named, failed] = classify_all(model, files, arguments, run);
   if (!arguments.report.empty()) {

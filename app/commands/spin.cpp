@@ -160,7 +160,7 @@ void check_arguments(const SpinArguments& arguments) {
   check_outputs(arguments);
 }
 
-RunIdentity identity_of(const SpinArguments& arguments, const Settings& settings) {
+RunIdentity spin_identity(const SpinArguments& arguments, const Settings& settings) {
   FilesIdentity data;
   data.add(arguments.file);
   const std::string more =
@@ -181,7 +181,7 @@ int run_spin(const SpinArguments& arguments, TaskFarm& farm) {
     if (lower_extension(arguments.output) == ".png") {
       write_sheet(arguments, dense, farm.threads(), bar);
     } else {
-      run.keep_journal(arguments.output, [&] { return identity_of(arguments, settings); });
+      run.keep_journal(arguments.output, [&] { return spin_identity(arguments, settings); });
       write_images(arguments, farm, dense, bar);
     }
   }

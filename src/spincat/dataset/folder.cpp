@@ -30,7 +30,7 @@ struct Entry {
 }
 
 // Symbolic links are followed; one that leads nowhere or in a circle is no folder.
-bool is_folder(const fs::path& path) {
+bool is_readable_folder(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::status_known(status) && error != std::errc::too_many_symbolic_link_levels) {
@@ -47,7 +47,7 @@ std::vector<Entry> entries_of(const fs::path& folder) {
   while (!error && next != fs::directory_iterator()) {
     const fs::path path = next->path();
     if (!path.filename().native().starts_with('.')) {
-      entries.push_back({path, is_folder(path)});
+      entries.push_back({path, is_readable_folder(path)});
     }
     next.increment(error);
   }

@@ -14,7 +14,7 @@ namespace spincat {
 namespace {
 
 constexpr std::size_t kStrongest = 4;    // spin points whose images are shown, on either side
-constexpr std::size_t kMostDots = 2048;  // spin points of one part and draw that are drawn
+constexpr std::size_t kMostSpinDots = 2048;  // spin points of one part and draw that are drawn
 
 float strongest_of(std::span<const float> values) {
   float strongest = 0.0F;
@@ -34,7 +34,7 @@ struct PlacedPoint {
 std::vector<PlacedPoint> strongest_points(const Evidence& evidence) {
   std::vector<PlacedPoint> all;
   for (std::size_t p = 0; p < evidence.parts.size(); ++p) {
-    for (std::size_t k = 0; k < std::min(evidence.parts[p].of_point.size(), kMostDots); ++k) {
+    for (std::size_t k = 0; k < std::min(evidence.parts[p].of_point.size(), kMostSpinDots); ++k) {
       all.push_back({p, k, evidence.parts[p].of_point[k]});
     }
   }
@@ -87,7 +87,7 @@ Json image_json(const PlacedPoint& placed, const Preparation& preparation, std::
 }
 
 Json part_json(const PartEvidence& part) {
-  const std::size_t shown = std::min(part.of_point.size(), kMostDots);
+  const std::size_t shown = std::min(part.of_point.size(), kMostSpinDots);
   const std::span<const float> values(part.of_point.data(), shown);
   const float strongest = strongest_of(values);
   std::vector<std::int16_t> shares;

@@ -11,7 +11,7 @@
 namespace spincat {
 namespace {
 
-constexpr const char* kStages[] = {"points", "images", "features", "training"};
+constexpr const char* kStageNames[] = {"points", "images", "features", "training"};
 
 std::string values_text(const Setting& setting) {
   if (std::string words = setting_words(setting); !words.empty()) {
@@ -58,7 +58,7 @@ std::string settings_list_json() {
     const std::string name(setting.name);
     Json row = {{"name", name},
                 {"option", fmt::format("--{}", setting.option)},
-                {"stage", kStages[static_cast<std::size_t>(setting.stage)]},
+                {"stage", kStageNames[static_cast<std::size_t>(setting.stage)]},
                 {"help", setting.help},
                 {"values", values_text(setting)}};
     for (const std::string& each : preset_names()) {

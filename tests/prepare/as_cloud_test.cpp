@@ -39,7 +39,7 @@ TEST(AsCloud, NoiseIsInDiameters) {
   // All points of a cloud are kept, so that each one's error is seen. Its furthest points are 5 from the middle.
   PointCloud given;
   for (int i = 0; i < 4000; ++i) {
-    given.points.emplace_back(i % 2 == 0 ? -5.0 : 5.0, 0.0, 0.0);
+    given.points.emplace_back(i % 2 == 0 ? -5.0 : 5.0, 1e-6 * i, 0.0);
   }
   given.sensor = Vec3(1, 2, 3);
   given.normals.assign(4000, Vec3(0, 0, 1));

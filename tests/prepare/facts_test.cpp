@@ -49,7 +49,22 @@ TEST(Facts, CountsDefects) {
   EXPECT_EQ(facts.flat_triangles, 2U);
   EXPECT_EQ(facts.repeated_triangles, 2U);
   EXPECT_DOUBLE_EQ(facts.area, 22.0 + 2 * 3.0);
-  EXPECT_EQ(facts.high, Vec3(9, 9, 9));
+  EXPECT_EQ(facts.high, Vec3(0.5, 1.0, 1.5)) << "what no triangle uses is no part of the object";
+}
+
+TEST(Facts, CountsWhatLiesFarFromTheObject) {
+  Mesh mesh = test::icosphere(2);
+  mesh.vertices.insert(mesh.vertices.end(), {{30, 0, 0}, {30, 0.01, 0}, {30, 0, 0.01}});
+  const auto last = static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+  mesh.triangles.push_back({last - 2, last - 1, last});
+  EXPECT_EQ(facts_of(mesh).dust_triangles, 1U);
+  EXPECT_EQ(facts_of(mesh).high.x(), 30.0) << "the box is the file's";
+  PointCloud cloud{test::icosphere(3).vertices, {}, {}};
+  cloud.points.emplace_back(0, 0, 0);
+  cloud.points.emplace_back(0, 0, 0);
+  cloud.points.emplace_back(0, 30, 0);
+  EXPECT_EQ(facts_of(cloud).lone_points, 2U);
+  EXPECT_EQ(facts_of(cloud).repeated_points, 1U);
 }
 
 TEST(Facts, OfACloud) {

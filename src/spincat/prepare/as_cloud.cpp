@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "spincat/geometry/random.h"
+#include "spincat/prepare/dust.h"
+#include "spincat/prepare/lone_points.h"
 #include "spincat/prepare/normalise.h"
 #include "spincat/prepare/surface_samples.h"
 
@@ -13,11 +15,15 @@ namespace {
 
 // Points of the surface as they are, and the diameter of the object.
 std::pair<PointCloud, double> points_of(const Object& object, std::size_t points, Random& random) {
-  if (const auto* cloud = std::get_if<PointCloud>(&object)) {
-    return {{cloud->points, {}, cloud->sensor}, 2.0 / unit_similarity(cloud->points).factor};
+  if (const auto* given = std::get_if<PointCloud>(&object)) {
+    const PointCloud cloud = without_lone_points(*given);
+    return {{cloud.points, {}, cloud.sensor}, 2.0 / unit_similarity(cloud.points).factor};
   }
   const Mesh mesh = without_unused_vertices(std::get<Mesh>(object));
   const Similarity similarity = unit_similarity(mesh.vertices);
+  if (const std::vector<std::uint32_t> dust = dust_of(transformed(mesh, similarity)); !dust.empty()) {
+    return points_of(without_triangles(mesh, dust), points, random);
+  }
   const double diameter = 2.0 / similarity.factor;
   if (!has_area(transformed(mesh, similarity))) {  // at a moderate size: areas of tiny objects vanish
     return {{mesh.vertices, {}, {}}, diameter};

@@ -6,6 +6,9 @@
 #include <vector>
 
 #include "spincat/prepare/defects.h"
+#include "spincat/prepare/dust.h"
+#include "spincat/prepare/lone_points.h"
+#include "spincat/prepare/normalise.h"
 #include "spincat/prepare/normals.h"
 #include "spincat/prepare/repeats.h"
 #include "spincat/prepare/resolution.h"
@@ -21,19 +24,28 @@ std::size_t count_repeated(std::span<const std::uint32_t> first) {
   return repeated;
 }
 
-std::size_t count_unused(const Mesh& mesh) {
-  std::vector<bool> used(mesh.vertices.size(), false);
-  for (const Triangle& t : mesh.triangles) {
-    for (const std::uint32_t v : t) {
-      used[v] = true;
-    }
+bool all_at_one_place(std::span<const Vec3> points) {
+  return std::ranges::all_of(points, [&](const Vec3& p) { return p == points[0]; });
+}
+
+std::size_t count_dust(const Mesh& used) {
+  return all_at_one_place(used.vertices) ? 0 : dust_of(transformed(used, unit_similarity(used.vertices))).size();
+}
+
+void find_box(std::span<const Vec3> points, ObjectFacts& facts) {
+  facts.low = facts.high = points.front();
+  for (const Vec3& p : points) {
+    facts.low = facts.low.cwiseMin(p);
+    facts.high = facts.high.cwiseMax(p);
   }
-  return static_cast<std::size_t>(std::ranges::count(used, false));
 }
 
 void add_mesh_facts(const Mesh& mesh, ObjectFacts& facts) {
   facts.triangles = mesh.triangles.size();
-  facts.unused_vertices = count_unused(mesh);
+  const Mesh used = without_unused_vertices(mesh);
+  facts.unused_vertices = mesh.vertices.size() - used.vertices.size();
+  facts.dust_triangles = count_dust(used);
+  find_box(used.vertices.empty() ? mesh.vertices : used.vertices, facts);
   for (const Vec3& normal : face_area_normals(mesh)) {
     facts.area += normal.norm();
   }
@@ -62,18 +74,16 @@ ObjectFacts facts_of(const Object& object) {
   const std::vector<Vec3>& points = mesh != nullptr ? mesh->vertices : std::get<PointCloud>(object).points;
   facts.is_mesh = mesh != nullptr;
   facts.points = points.size();
-  facts.low = facts.high = points.front();
-  for (const Vec3& p : points) {
-    facts.low = facts.low.cwiseMin(p);
-    facts.high = facts.high.cwiseMax(p);
-  }
   const std::vector<std::uint32_t> first = first_at_position(points);
   facts.repeated_points = count_repeated(first);
   if (mesh != nullptr) {
     add_mesh_facts(*mesh, facts);
   } else {
-    facts.has_normals = !std::get<PointCloud>(object).normals.empty();
+    const auto& cloud = std::get<PointCloud>(object);
+    facts.has_normals = !cloud.normals.empty();
+    facts.lone_points = points.size() - facts.repeated_points - without_lone_points(cloud).points.size();
     facts.resolution = cloud_resolution(distinct(points, first));
+    find_box(points, facts);
   }
   return facts;
 }

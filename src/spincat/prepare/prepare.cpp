@@ -10,10 +10,11 @@
 #include <vector>
 
 #include "spincat/geometry/random.h"
+#include "spincat/prepare/dust.h"
 #include "spincat/prepare/external_surface.h"
+#include "spincat/prepare/lone_points.h"
 #include "spincat/prepare/normalise.h"
 #include "spincat/prepare/normals.h"
-#include "spincat/prepare/repeats.h"
 #include "spincat/prepare/surface_samples.h"
 
 namespace spincat {
@@ -75,26 +76,10 @@ std::vector<Vec3> cloud_normals(const PointCloud& cloud, const PrepareSettings& 
   return normals;
 }
 
-// Each point once: the first of those at one place, in the order of the file.
-PointCloud without_repeats(const PointCloud& cloud) {
-  const std::vector<std::uint32_t> first = first_at_position(cloud.points);
-  PointCloud result;
-  result.sensor = cloud.sensor;
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    if (first[i] != i) {
-      continue;
-    }
-    result.points.push_back(cloud.points[i]);
-    if (!cloud.normals.empty()) {
-      result.normals.push_back(cloud.normals[i]);
-    }
-  }
-  return result;
-}
-
 Surface cloud_surface(const PointCloud& given, const PrepareSettings& settings, Random& random) {
-  const Similarity similarity = unit_similarity(given.points);
-  const PointCloud cloud = transformed(without_repeats(given), similarity);
+  const PointCloud object = without_lone_points(given);
+  const Similarity similarity = unit_similarity(object.points);
+  const PointCloud cloud = transformed(object, similarity);
   SurfacePoints points{cloud.points, cloud_normals(cloud, settings)};
   if (settings.surface != SurfaceKind::vertices) {
     points = even_out(points, static_cast<std::size_t>(settings.points), random);
@@ -113,6 +98,9 @@ Surface mesh_surface(const Mesh& given, const PrepareSettings& settings, Random&
   }
   const Similarity similarity = unit_similarity(mesh.vertices);
   mesh = transformed(mesh, similarity);
+  if (const std::vector<std::uint32_t> dust = dust_of(mesh); !dust.empty()) {
+    return mesh_surface(without_triangles(given, dust), settings, random);
+  }
   if (!has_area(mesh)) {
     return cloud_surface({given.vertices, {}, {}}, settings, random);
   }

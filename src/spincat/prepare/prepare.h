@@ -46,10 +46,11 @@ struct PreparedObject {
 };
 
 // Prepares a mesh or a cloud. Meshes without any area are treated as the cloud of their vertices. Repeated points of a
-// cloud count once. Where an object has fewer points than spin points are asked for, SurfaceKind::vertices repeats
-// them, so that an observation keeps its length (the paper's concatenation needs that), and the other kinds use what is
-// there. Deterministic: the same object, settings and seed give the same points, on any number of threads. Throws
-// InputError (without a file name) when the object has no extent: no points, or all at one place.
+// cloud count once, points that stand alone (lone_points.h) and dust far from a mesh (dust.h) not at all. Where an
+// object has fewer points than spin points are asked for, SurfaceKind::vertices repeats them, so that an observation
+// keeps its length (the paper's concatenation needs that), and the other kinds use what is there. Deterministic: the
+// same object, settings and seed give the same points, on any number of threads. Throws InputError (without a file
+// name) when the object has no extent: no points, or all at one place.
 PreparedObject prepare(const Object& object, const PrepareSettings& settings, std::uint64_t seed);
 
 // The training copy number `copy` of an object: each axis stretched by exp(U(-amount, amount)). Deterministic.

@@ -13,7 +13,7 @@
 namespace spincat {
 namespace {
 
-constexpr std::size_t kStrongest = 4;    // spin points whose images are shown, on either side
+constexpr std::size_t kStrongest = 4;        // spin points whose images are shown, on either side
 constexpr std::size_t kMostSpinDots = 2048;  // spin points of one part and draw that are drawn
 
 float strongest_of(std::span<const float> values) {

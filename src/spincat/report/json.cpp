@@ -77,7 +77,9 @@ std::string object_json(const std::string& file, const ObjectFacts& facts) {
                  {"unused_vertices", facts.unused_vertices},
                  {"flat_triangles", facts.flat_triangles},
                  {"repeated_triangles", facts.repeated_triangles},
-                 {"flipped_triangles", facts.flipped_triangles}}}});
+                 {"flipped_triangles", facts.flipped_triangles},
+                 {"dust_triangles", facts.dust_triangles},
+                 {"lone_points", facts.lone_points}}}});
 }
 
 std::string spin_json(const std::string& file, std::size_t spin_points, const SpinImageParams& params,

@@ -134,6 +134,8 @@ std::string object_text(const ObjectFacts& facts) {
   defect("triangles without area", facts.flat_triangles);
   defect("repeated triangles", facts.repeated_triangles);
   defect("flipped triangles", facts.flipped_triangles);
+  defect("dust triangles", facts.dust_triangles);
+  defect("lone points", facts.lone_points);
   return table.str();
 }
 

@@ -114,7 +114,8 @@ Classified classify_all(const Model& model, const std::vector<InputFile>& inputs
   return result;
 }
 
-RunIdentity batch_identity(const Model& model, const std::vector<InputFile>& inputs, const ClassifyArguments& arguments) {
+RunIdentity batch_identity(const Model& model, const std::vector<InputFile>& inputs,
+                           const ClassifyArguments& arguments) {
   FilesIdentity data;
   data.add(arguments.model);
   for (const InputFile& input : inputs) {

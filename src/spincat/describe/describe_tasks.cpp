@@ -34,15 +34,6 @@ void fields(auto& archive, MessageOf<DescribeContext> auto& context) {
 // From so many spin points on, an object is spread over ranks by itself.
 constexpr int kDenseSpinPoints = 8 * static_cast<int>(kSpinImageBlock * 8);
 
-// A RunError while reading says that the memory does not suffice for this object. Later ones are those of a farm.
-Object read_or_refuse(const std::function<Object()>& read) {
-  try {
-    return read();
-  } catch (const RunError& error) {
-    throw InputError(error.file(), error.problem());
-  }
-}
-
 Work describe_work(const Settings& settings, int rows, const ReadLimits& limits) {
   return [settings, rows, limits](std::string_view file) {
     return pack(describe_object([&] { return read_listed_object(file, limits); }, rows, describe_copies(settings)));
@@ -90,31 +81,39 @@ DescribeRow describe_copies(const Settings& settings, const EncodePrepared& enco
 
 Described describe_object(const std::function<Object()>& read, int rows, const DescribeRow& describe_row) {
   Described result;
-  const auto refuse = [&](const std::string& problem) {
+  const auto refuse = [&](const std::string& problem, bool lacks_memory) {
     result.features.clear();
     result.problem = problem;
+    result.lacks_memory = lacks_memory;
   };
+  bool is_read = false;
   try {
     Stopwatch watch;
-    const Object object = read_or_refuse(read);
+    const Object object = read();
+    is_read = true;
     result.kind = kind_of(object);
     result.seconds.read = watch.lap();
     for (int row = 0; row < rows; ++row) {
       result.features.push_back(describe_row(object, row, result.seconds));
     }
   } catch (const InputError& error) {
-    refuse(error.problem());
+    refuse(error.problem(), false);
+  } catch (const RunError& error) {
+    if (is_read) {  // that of a farm
+      throw;
+    }
+    refuse(error.problem(), true);
   } catch (const std::bad_alloc&) {
-    refuse("not enough memory for it");
+    refuse("not enough memory for it", true);
   }
   return result;
 }
 
 // All but the feature vectors, which follow.
 void fields(auto& archive, MessageOf<Described> auto& described) {
-  auto& [features, problem, kind, seconds] = described;  // does not compile when a member is forgotten
+  auto& [features, problem, lacks_memory, kind, seconds] = described;  // does not compile when a member is forgotten
   static_cast<void>(features);
-  archive(problem, kind, seconds);
+  archive(problem, lacks_memory, kind, seconds);
 }
 
 std::string pack(const Described& described) {

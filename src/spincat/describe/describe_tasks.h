@@ -31,13 +31,14 @@ inline constexpr const char* kDescribeTasks = "feature vectors of objects";
 struct Described {
   std::vector<FeatureVector> features;  // the object itself and its copies; empty when it could not be read
   std::string problem;                  // why not
+  bool lacks_memory = false;            // that is why
   ObjectKind kind = ObjectKind::mesh;   // where it could be read
   StageSeconds seconds;
 };
 
 // Describes one object: `read` gives it, and `describe_row` describes its rows, the first of which is the object itself
-// (or its first view). What is wrong with the object becomes its problem; so does memory that does not suffice for it,
-// as others may need less. All other errors are thrown.
+// (or its first view). What is wrong with the object becomes its problem; so does memory that does not suffice for it.
+// All other errors are thrown.
 using DescribeRow = std::function<FeatureVector(const Object& object, int row, StageSeconds& seconds)>;
 Described describe_object(const std::function<Object()>& read, int rows, const DescribeRow& describe_row);
 

@@ -190,6 +190,9 @@ TestTable describe_tested(std::span<const DatasetObject> objects, std::size_t fe
     const Described described = unpack_described(result);
     table.seconds += described.seconds;
     table.problems[i] = described.problem;
+    if (described.lacks_memory) {
+      throw RunError(objects[i].file.string(), described.problem);
+    }
     if (described.features.empty()) {
       return;
     }

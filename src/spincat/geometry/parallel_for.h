@@ -1,15 +1,16 @@
 // A loop over threads.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <exception>
 #include <mutex>
-
-#ifdef __SANITIZE_THREAD__
 #include <thread>
+#include <utility>
 #include <vector>
-#endif
+
+#include "spincat/geometry/start_thread.h"
 
 namespace spincat {
 
@@ -35,6 +36,13 @@ class FirstFailure {
     }
   }
 
+  // Something else went wrong: no call is started any more, and this is rethrown.
+  void stop(std::exception_ptr error) {
+    const std::lock_guard lock(mutex_);
+    index_ = 0;
+    error_ = std::move(error);
+  }
+
   void rethrow() const {
     if (error_) {
       std::rethrow_exception(error_);
@@ -47,30 +55,30 @@ class FirstFailure {
   std::exception_ptr error_;
 };
 
-// Calls body(0) to body(count - 1) on `threads` (1 or more) threads, each once, in no particular order. When a call
-// throws, those of larger indices are no longer started, and the exception of the smallest index that throws is
-// rethrown here: the same one for any number of threads.
+// Calls body(0) to body(count - 1) on `threads` (1 or more) threads, this one among them, each once, in no particular
+// order. When a call throws, those of larger indices are no longer started, and the exception of the smallest index
+// that throws is rethrown here: the same one for any number of threads. Throws RunError when a thread cannot be
+// started.
 template <class Body>
 void parallel_for(std::size_t count, int threads, const Body& body) {
   FirstFailure failure(count);
-#ifdef __SANITIZE_THREAD__
-  // A thread sanitizer does not see the barriers of GCC's OpenMP, and takes what they order for races.
   std::atomic<std::size_t> next = 0;
-  std::vector<std::jthread> crew;
-  for (int t = 0; t < threads; ++t) {
-    crew.emplace_back([&] {
-      for (std::size_t i = next++; i < count; i = next++) {
-        failure.run(i, body);
-      }
-    });
+  const auto run_all = [&] {
+    for (std::size_t i = next++; i < count; i = next++) {
+      failure.run(i, body);
+    }
+  };
+  std::vector<std::jthread> others;
+  try {
+    for (std::size_t t = 1; t < std::min(static_cast<std::size_t>(threads), count); ++t) {
+      others.push_back(start_thread(run_all));
+    }
+    run_all();
+  } catch (...) {
+    next = count;
+    failure.stop(std::current_exception());
   }
-  crew.clear();  // joins
-#else
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-  for (std::size_t i = 0; i < count; ++i) {
-    failure.run(i, body);
-  }
-#endif
+  others.clear();  // joins
   failure.rethrow();
 }
 

@@ -13,7 +13,7 @@ namespace spincat::farm {
 
 // Raised whenever a message or a result changes: ranks of different versions must not work together, nor a journal be
 // taken for one of ours.
-inline constexpr std::uint32_t kProtocol = 5;
+inline constexpr std::uint32_t kProtocol = 6;
 
 enum Tag : int {
   kHello,      // to rank 0 and from it: Greeting

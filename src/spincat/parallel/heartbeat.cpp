@@ -7,6 +7,7 @@
 #include <mutex>
 #include <string>
 
+#include "spincat/geometry/start_thread.h"
 #include "spincat/parallel/farm_messages.h"
 
 namespace spincat {
@@ -17,7 +18,7 @@ constexpr std::chrono::milliseconds kBetweenBeats(500);
 }  // namespace
 
 Heartbeat::Heartbeat(Communicator& ranks)
-    : ranks_(ranks), thread_([this](const std::stop_token& stop) { beat_on(stop); }) {}
+    : ranks_(ranks), thread_(start_thread([this](const std::stop_token& stop) { beat_on(stop); })) {}
 
 void Heartbeat::beat_on(const std::stop_token& stop) {
   std::mutex mutex;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "spincat/error.h"
+#include "spincat/geometry/start_thread.h"
 
 namespace spincat {
 
@@ -16,12 +17,21 @@ void TaskResult::throw_problem() const {
 }
 
 ThreadCrew::ThreadCrew(Work work, int threads) : work_(std::move(work)) {
-  for (int t = 0; t < threads; ++t) {
-    threads_.emplace_back([this] { work_on(); });
+  try {
+    for (int t = 0; t < threads; ++t) {
+      threads_.push_back(start_thread([this] { work_on(); }));
+    }
+  } catch (...) {
+    stop();  // or those that were started would wait for ever
+    throw;
   }
 }
 
 ThreadCrew::~ThreadCrew() {
+  stop();
+}
+
+void ThreadCrew::stop() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;

@@ -18,6 +18,7 @@ namespace spincat {
 // Threads that wait for tasks. All functions are for one thread, the owner's.
 class ThreadCrew {
  public:
+  // Throws RunError when not all of the threads can be started.
   ThreadCrew(Work work, int threads);
   // Forgets tasks that nobody has begun and waits for those under way.
   ~ThreadCrew();
@@ -37,6 +38,7 @@ class ThreadCrew {
     std::string bytes;
   };
 
+  void stop();
   void work_on();
   TaskResult do_task(const Given& given) const;
 

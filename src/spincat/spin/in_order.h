@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "spincat/geometry/start_thread.h"
+
 namespace spincat {
 
 // Calls make(step, worker) for every step in [0, steps) on `workers` threads (worker is 0 .. workers - 1, worker 0 on
@@ -27,11 +29,13 @@ class InOrder {
   InOrder(std::size_t steps, std::size_t workers, Make make, Deliver deliver)
       : steps_(steps), window_(2 * workers), make_(std::move(make)), deliver_(std::move(deliver)) {
     std::vector<std::jthread> others;
-    for (std::size_t worker = 1; worker < workers; ++worker) {
-      others.emplace_back([this, worker] { guarded([&] { work(worker); }); });
-    }
-    guarded([&] { work_and_deliver(); });
-    others.clear();  // joins
+    guarded([&] {
+      for (std::size_t worker = 1; worker < workers; ++worker) {
+        others.push_back(start_thread([this, worker] { guarded([&] { work(worker); }); }));
+      }
+    });
+    guarded([&] { work_and_deliver(); });  // nothing where not all could be started
+    others.clear();                        // joins
     if (failure_) {
       std::rethrow_exception(failure_);
     }

@@ -124,6 +124,9 @@ FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, 
     return all_ranks_keep;
   };
   const auto keep = [&](std::size_t i, const Described& one, std::span<const FeatureBytes> values) {
+    if (one.lacks_memory) {  // a model of fewer objects, and nobody would know why it is worse
+      throw RunError(dataset.objects[i].file.string(), one.problem);
+    }
     if (strict && values.empty()) {
       throw InputError(dataset.objects[i].file.string(), one.problem);
     }

@@ -14,7 +14,6 @@ packages_build=(
   librsvg2-dev pkgconf # the confusion matrix as a PNG file
   nlohmann-json3-dev   # model files, JSON
   libcli11-dev         # command line
-  libcpp-httplib-dev   # the live page of spincat camera
   libfmt-dev           # formatting
   zlib1g-dev           # checksums
 )

@@ -5,6 +5,7 @@
 #include <exception>
 #include <utility>
 
+#include "app/camera/thread.h"
 #include "spincat/describe/stopwatch.h"
 #include "spincat/error.h"
 
@@ -108,7 +109,8 @@ class AllFrames : public FrameFeed {
 class NewestFrames : public FrameFeed {
  public:
   NewestFrames(std::unique_ptr<FrameSource> source, std::size_t every)
-      : reader_(std::move(source), every), thread_([this](const std::stop_token& stop) { read_on(stop); }) {}
+      : reader_(std::move(source), every),
+        thread_(start_thread("frames in their own time", [this](const std::stop_token& stop) { read_on(stop); })) {}
 
   std::optional<FedFrame> next() override {
     std::optional<FedFrame> frame = latest_.take(kWait);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/camera/thread.h"
 #include "spincat/camera/source/calibration.h"
 #include "spincat/camera/source/depth_png.h"
 #include "spincat/error.h"
@@ -39,7 +40,8 @@ void make_empty_folder(const fs::path& folder) {
 
 }  // namespace
 
-WriterThread::WriterThread(bool waits) : waits_(waits), thread_([this] { work_on(); }) {}
+WriterThread::WriterThread(bool waits)
+    : waits_(waits), thread_(start_thread("writing frames", [this] { work_on(); })) {}
 
 WriterThread::~WriterThread() {
   {

@@ -42,7 +42,7 @@ class WriterThread {
   bool busy_ = false;
   bool stop_ = false;
   std::exception_ptr error_;
-  std::thread thread_;
+  std::jthread thread_;
 };
 
 // A recording that open_recording reads: depth pictures, TUM's depth.txt and camera.txt.

@@ -1,16 +1,19 @@
 #include "app/camera/live_view.h"
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
-#include <httplib.h>
 #include <sys/random.h>
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
-#include <cstring>
+#include <chrono>
+#include <cstdint>
 #include <string_view>
-#include <thread>
+#include <utility>
 
+#include "app/camera/page_server.h"
 #include "spincat/error.h"
 #include "spincat/report/embedded.h"
 
@@ -18,7 +21,7 @@ namespace spincat::app {
 namespace {
 
 constexpr std::chrono::milliseconds kLongestWait(1'000);  // of a page for the next frame
-constexpr int kMostColumns = 320;                         // of the picture that the page gets
+constexpr int kMostPixels = 320;                          // along a side of the picture that the page gets
 
 // The picture as the page gets it: every step-th pixel both ways.
 struct SmallPicture {
@@ -30,7 +33,7 @@ struct SmallPicture {
 
 SmallPicture thumbnail(const ShownFrame& frame) {
   const DepthImage& image = frame.image;
-  const int step = std::max(1, image.width / kMostColumns);
+  const int step = (std::max(image.width, image.height) + kMostPixels - 1) / kMostPixels;
   SmallPicture small{image.width / step, image.height / step, {}, {}};
   float nearest = 1e9F;
   float furthest = 0.0F;
@@ -87,20 +90,28 @@ std::string random_token() {
   return token;
 }
 
-std::uint64_t number_of(const httplib::Request& request, const char* name) {
-  const std::string text = request.get_param_value(name);
+std::uint64_t number_of(std::string_view text) {
   std::uint64_t number = 0;
   std::from_chars(text.data(), text.data() + text.size(), number);
   return number;
 }
 
 // Equal in a time that does not tell where they differ.
-bool same_text(const std::string& a, const std::string& b) {
+bool same_text(std::string_view a, std::string_view b) {
   unsigned char difference = a.size() == b.size() ? 0 : 1;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
     difference |= static_cast<unsigned char>(a[i] ^ b[i]);
   }
   return difference == 0;
+}
+
+bool is_number_of_address(const std::string& text) {
+  in6_addr ignored{};
+  return inet_pton(AF_INET6, text.c_str(), &ignored) == 1;
+}
+
+bool same_name(std::string_view a, std::string_view b) {
+  return std::ranges::equal(a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
 }  // namespace
@@ -112,95 +123,94 @@ ViewPlace ViewPlace::parse(const std::string& text) {
   if (colon != std::string::npos) {
     place.address = text.substr(0, colon);
   }
+  const bool in_brackets = place.address.size() > 2 && place.address.front() == '[' && place.address.back() == ']';
+  if (in_brackets) {
+    place.address = place.address.substr(1, place.address.size() - 2);
+  }
+  const bool has_colon = place.address.find(':') != std::string::npos;
   const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), place.port);
   if (error != std::errc{} || end != port.data() + port.size() || place.port < 0 || place.port > 65'535 ||
-      place.address.empty()) {
-    throw InputError(fmt::format("--view {}: expected a port from 0 to 65535, or ADDRESS:PORT", text));
+      place.address.empty() || (has_colon && !in_brackets && !is_number_of_address(place.address))) {
+    throw InputError(fmt::format(
+        "--view {}: expected a port from 0 to 65535, or ADDRESS:PORT, as in 0.0.0.0:8080 or [::1]:8080", text));
   }
   return place;
 }
 
-bool ViewPlace::is_local() const {
-  return address.rfind("127.", 0) == 0 || address == "localhost";
-}
-
-struct LiveView::Server {
-  Server(const ViewPlace& where, const CameraState& shown, const std::vector<std::string>& names)
-      : place(where), state(shown), categories(names) {
-    if (!place.is_local()) {
+struct LiveView::Pages {
+  Pages(std::string where, const Listener& listener, const CameraState& shown, const std::vector<std::string>& names)
+      : state(shown), categories(names) {
+    const std::string address = where.find(':') != std::string::npos ? "[" + where + "]" : where;
+    const std::string at = fmt::format("{}:{}", address, listener.port());
+    if (listener.is_local()) {
+      hosts = {at, fmt::format("localhost:{}", listener.port())};
+      if (listener.port() == kUsualPort) {  // browsers leave it out
+        hosts.insert(hosts.end(), {address, "localhost"});
+      }
+    } else {
       token = random_token();
     }
-    http.new_task_queue = [] { return new httplib::ThreadPool(4); };  // as httplib wants it; it deletes the pool
-    http.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
-      if (allowed(request)) {
-        return httplib::Server::HandlerResponse::Unhandled;
-      }
-      response.status = 403;
-      response.set_content("This page needs the token that spincat camera printed.\n", "text/plain");
-      return httplib::Server::HandlerResponse::Handled;
-    });
-    http.set_default_headers({{"Cache-Control", "no-store"},
-                              {"X-Content-Type-Options", "nosniff"},
-                              {"Content-Security-Policy",
-                               "default-src 'none'; connect-src 'self'; style-src 'unsafe-inline'; script-src "
-                               "'unsafe-inline'; img-src data:"}});
-    http.Get("/", [](const httplib::Request&, httplib::Response& response) {
-      const std::string_view page = embedded::live_html();
-      response.set_content(page.data(), page.size(), "text/html; charset=utf-8");
-    });
-    http.Get("/frame", [this](const httplib::Request& request, httplib::Response& response) {
-      lower_priority();
-      const CameraState::Shown newest = state.newer_than(number_of(request, "after"), kLongestWait);
-      if (newest.frame) {
-        response.set_content(frame_bytes(newest, categories), "application/octet-stream");
-      } else {
-        response.status = newest.ended ? 410 : 204;
-      }
-    });
-  }
-
-  void start() {
-    if (place.port == 0) {
-      place.port = http.bind_to_any_port(place.address.c_str());
-    } else if (!http.bind_to_port(place.address.c_str(), place.port)) {
-      place.port = -1;
-    }
-    if (place.port < 0) {
-      throw RunError(fmt::format("the live page cannot be served on {}: {}", place.address, std::strerror(errno)));
-    }
-    url = fmt::format("http://{}:{}/{}", place.address, place.port, token.empty() ? "" : "?token=" + token);
-    thread = std::jthread([this] { http.listen_after_bind(); });
+    url = fmt::format("http://{}/{}", at, token.empty() ? "" : "?token=" + token);
   }
 
   // A name that leads here but is not ours is another site's trick to read what is local (DNS rebinding).
-  bool allowed(const httplib::Request& request) const {
-    if (!token.empty()) {
-      return same_text(request.get_param_value("token"), token);
-    }
-    const std::string host = request.get_header_value("Host");
-    return host == fmt::format("{}:{}", place.address, place.port) || host == fmt::format("localhost:{}", place.port);
+  bool allowed(const HttpRequest& request) const {
+    return token.empty() ? std::ranges::any_of(hosts, [&](const auto& host) { return same_name(host, request.host); })
+                         : same_text(request.value("token"), token);
   }
 
-  ViewPlace place;
+  std::optional<PageAnswer> answer(const HttpRequest& request, std::chrono::milliseconds waited) {
+    if (!allowed(request) || (request.is_of_other_site && request.path != "/")) {
+      return PageAnswer{403, "text/plain", refusal};
+    }
+    if (request.path == "/") {
+      return PageAnswer{200, "text/html; charset=utf-8", page};
+    }
+    return request.path == "/frame" ? frame(number_of(request.value("after")), waited)
+                                    : PageAnswer{404, "text/plain", nullptr};
+  }
+
+  std::optional<PageAnswer> frame(std::uint64_t after, std::chrono::milliseconds waited) {
+    const CameraState::Shown newest = state.newer_than(after, std::chrono::milliseconds(0));
+    if (newest.frame) {
+      if (newest.number != number) {  // once for all who ask
+        bytes = std::make_shared<const std::string>(frame_bytes(newest, categories));
+        number = newest.number;
+      }
+      return PageAnswer{200, "application/octet-stream", bytes};
+    }
+    if (newest.ended || waited >= kLongestWait) {
+      return PageAnswer{newest.ended ? 410 : 204, "text/plain", nullptr};
+    }
+    return {};
+  }
+
+  static constexpr int kUsualPort = 80;
   const CameraState& state;
   const std::vector<std::string>& categories;
   std::string token;
+  std::vector<std::string> hosts;  // by which a local page may be called
   std::string url;
-  httplib::Server http;
-  std::jthread thread;
+  std::shared_ptr<const std::string> page = std::make_shared<const std::string>(embedded::live_html());
+  std::shared_ptr<const std::string> refusal =
+      std::make_shared<const std::string>("This page needs the address that spincat camera printed.\n");
+  std::uint64_t number = 0;  // of the frame in `bytes`
+  std::shared_ptr<const std::string> bytes;
 };
 
-LiveView::LiveView(const ViewPlace& place, const CameraState& state, const std::vector<std::string>& categories)
-    : server_(std::make_unique<Server>(place, state, categories)) {
-  server_->start();
+LiveView::LiveView(const ViewPlace& place, const CameraState& state, const std::vector<std::string>& categories) {
+  Listener listener(place.address, place.port);
+  pages_ = std::make_unique<Pages>(place.address, listener, state, categories);
+  server_.emplace(std::move(listener),
+                  [pages = pages_.get()](const HttpRequest& request, std::chrono::milliseconds waited) {
+                    return pages->answer(request, waited);
+                  });
 }
 
-LiveView::~LiveView() {
-  server_->http.stop();
-}
+LiveView::~LiveView() = default;
 
 const std::string& LiveView::url() const {
-  return server_->url;
+  return pages_->url;
 }
 
 }  // namespace spincat::app

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/camera/camera_state.h"
+#include "app/camera/page_server.h"
 
 namespace spincat::app {
 
@@ -14,16 +16,17 @@ struct ViewPlace {
   std::string address = "127.0.0.1";
   int port = 0;  // 0: any that is free
 
-  // "8080" or "0.0.0.0:8080". Throws InputError when it is neither.
+  // "8080", "0.0.0.0:8080" or "[::1]:8080". Throws InputError when it is none of them.
   static ViewPlace parse(const std::string& text);
-  bool is_local() const;
 };
 
-// Serves until it goes. On an address that others can reach, only those who know the token in url() are answered; on a
-// local one, only pages of this very server are (no other site's page can ask for the pictures).
+// Serves until it goes, and then ends at once. However many clients there are, and however slow or large what they
+// send, they cost the loop nothing and no more memory than PageServer says. On an address that others can reach, only
+// those who know the token in url() are answered; on a local one, only pages of this very server are (no other site's
+// page can ask for the pictures).
 class LiveView {
  public:
-  // Throws RunError when the place cannot be had. What is referred to must outlive it.
+  // Throws RunError when the place cannot be had, or there is no thread for it. What is referred to must outlive it.
   LiveView(const ViewPlace& place, const CameraState& state, const std::vector<std::string>& categories);
   ~LiveView();
   LiveView(const LiveView&) = delete;
@@ -32,8 +35,9 @@ class LiveView {
   const std::string& url() const;
 
  private:
-  struct Server;
-  std::unique_ptr<Server> server_;
+  struct Pages;
+  std::unique_ptr<Pages> pages_;
+  std::optional<PageServer> server_;  // the last member: it asks for pages
 };
 
 }  // namespace spincat::app

@@ -110,6 +110,11 @@ class CameraRun {
     // The source first: what is wrong with it is told before any folder is made.
     std::unique_ptr<FrameSource> source =
         is_kinect() ? open_kinect(arguments.frames) : open_recording(arguments.source, arguments.frames);
+    for (const std::string& note : source->notes()) {
+      if (!arguments.run.quiet) {
+        message(note);
+      }
+    }
     if (!arguments.record.empty() || !arguments.masks.empty()) {
       writer_.emplace(!arguments.real_time);
     }
@@ -256,10 +261,12 @@ int run_camera(const CameraArguments& arguments) {
 void add_source_options(CLI::App& command, CameraArguments& a) {
   command
       .add_option("--intrinsics", a.frames.calibration,
-                  "A file with the lines fx, fy, cx, cy (and units_per_metre, width, height); without it, the "
-                  "recording's camera.txt, else a Kinect's")
+                  "A file with the lines fx, fy, cx, cy (and units_per_metre, width, height), a 3 x 3 matrix, or what "
+                  "Open3D, RealSense and ROS write; without it, the recording's own, else a Kinect's")
       ->type_name("FILE");
-  command.add_option("--units", a.frames.units_per_metre, "Numbers in depth pictures that make a metre: 1000, 5000")
+  command
+      .add_option("--units", a.frames.units_per_metre,
+                  "Numbers in depth pictures that make a metre: 1000, 5000 (TUM), 10000 (YCB)")
       ->check(CLI::PositiveNumber)
       ->type_name("N");
   command.add_option("--every", a.every, "Look at every N-th frame only")
@@ -313,8 +320,9 @@ Command add_camera(CLI::App& parent) {
   command->add_option("--masks", arguments->masks, "For each frame write a 16-bit PNG of the objects' ids")
       ->type_name("DIR");
   command
-      ->add_option("--view", arguments->view,
-                   "Serve a live page on 127.0.0.1; with ADDRESS:PORT elsewhere, for those who know its token")
+      ->add_option(
+          "--view", arguments->view,
+          "Serve a live page on 127.0.0.1; with ADDRESS:PORT ([::1]:8080) elsewhere, for those who know its token")
       ->type_name("PORT");
   arguments->run.add_to(*command);
   return [arguments](TaskFarm&) { return run_camera(*arguments); };

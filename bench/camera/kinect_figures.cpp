@@ -158,7 +158,8 @@ Json kinect_figures(const fs::path& scenes, const fs::path& scratch, int views, 
   }
   for (const fs::path& folder : folders) {
     const std::string name = folder.filename().string();
-    const DepthImage image = decode_depth_png(read_file(folder / "depth.png"), calibration.units_per_metre);
+    const DepthImage image =
+        decode_depth_png(read_file(folder / "depth.png"), calibration.units_per_metre.value_or(kUsualUnits));
     const DepthImage labels = decode_depth_png(read_file(folder / "label.png"), 1.0);
     const SeenFrame frame = Recogniser(model, settings, threads).look(image, calibration.intrinsics);
     for (const SeenObject& object : frame.objects) {

@@ -1,6 +1,7 @@
 // spincat camera as a user meets it: recordings in, JSON out.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <lodepng.h>
 #include <signal.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -277,6 +278,57 @@ TEST_F(CameraCommand, SaysWhatIsWrongWithTheUnits) {
   EXPECT_NE(result.lines[0].at("reason").get<std::string>().find("--units"), std::string::npos);
 }
 
+TEST_F(CameraCommand, SaysThatATableIsTooFarAway) {
+  for (const std::string quiet : {"", " --quiet"}) {
+    const Result result = run("camera m.spincat frames --units 150" + quiet);  // 0.7 m become 4.7
+    EXPECT_EQ(result.code, 0);
+    ASSERT_EQ(result.lines.size(), 4U);
+    EXPECT_EQ(result.lines[0].at("status"), "wrong units");
+    EXPECT_NE(result.lines[0].at("reason").get<std::string>().find(" m away, too far for a table: are --units right?"),
+              std::string::npos)
+        << result.lines[0];
+    EXPECT_NEAR(result.lines[0].at("plane").at("distance").get<double>(), 4.67, 0.05);
+    EXPECT_TRUE(result.lines[0].at("objects").empty());
+  }
+}
+
+// As RealSense's viewer leaves them: colours, and grey tones of the infrared camera, beside the depths.
+TEST_F(CameraCommand, PassesOverOtherPicturesAndSaysSoOnce) {
+  copy_frames("viewer");
+  std::vector<unsigned char> colours;
+  ASSERT_EQ(lodepng::encode(colours, std::vector<unsigned char>(36, 9), 4, 3, LCT_RGB, 8), 0U);
+  for (int k = 0; k < 12; ++k) {  // before the others in the order of names
+    folder_->write(fmt::format("viewer/-Color_{}.png", k), {reinterpret_cast<char*>(colours.data()), colours.size()});
+  }
+  const Result result = run("camera m.spincat viewer");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(result.err, "spincat: viewer: passes over 12 pictures in colours\n");
+  EXPECT_EQ(result.summary.at("frames"), 4);
+  EXPECT_EQ(result.lines[0].at("file"), "0.png");
+  EXPECT_EQ(run("camera m.spincat viewer --quiet").err, "");
+  const Result single = run("camera m.spincat viewer/-Color_1.png");
+  EXPECT_EQ(single.code, 2);
+  EXPECT_NE(single.lines.at(0).at("error").get<std::string>().find("picture in colours"), std::string::npos);
+}
+
+TEST_F(CameraCommand, TakesIntrinsicsOfOtherPrograms) {
+  folder_->write("open3d.json",
+                 R"({"width": 640, "height": 480, "intrinsic_matrix": [525, 0, 0, 0, 525, 0, 319.5, 239.5, 1]})");
+  folder_->write("ros.yaml", "image_width: 640\nK: [525, 0, 319.5, 0, 525, 239.5, 0, 0, 1]\n");
+  folder_->write("half.yaml", "image_width: 320\nK: [262, 0, 159.5, 0, 262, 119.5, 0, 0, 1]\n");
+  const auto expected = without_times(run("camera m.spincat frames").lines);
+  for (const std::string file : {"open3d.json", "ros.yaml"}) {
+    const Result result = run("camera m.spincat frames --intrinsics " + file);
+    EXPECT_EQ(result.err, "");
+    EXPECT_EQ(without_times(result.lines), expected) << file;
+  }
+  const Result half = run("camera m.spincat frames --intrinsics half.yaml");
+  EXPECT_EQ(half.code, 2);
+  EXPECT_NE(
+      half.lines.at(0).at("error").get<std::string>().find("is 640 x 480 pixels large where the calibration says 320"),
+      std::string::npos);
+}
+
 TEST_F(CameraCommand, EndsWhenTheRecordingDisappears) {
   copy_frames("gone");
   const Running running = start({"camera", "m.spincat", "gone", "--loop"});
@@ -398,6 +450,9 @@ TEST_F(CameraCommand, RefusesWrongUseInOneLine) {
   refused("m.spincat frames --up-direction 0,1", "expected three numbers");
   refused("m.spincat frames --up-direction 0,0,0", "up");
   refused("m.spincat frames --view 99999", "expected a port");
+  refused("m.spincat frames --view ::1", "--view ::1: expected a port from 0 to 65535, or ADDRESS:PORT");
+  refused("m.spincat frames --view [::1:80", "expected a port");
+  refused("m.spincat frames --view [::1]", "expected a port");
   refused("m.spincat frames --split round", "--split");
   refused("m.spincat frames --intrinsics nothing.txt", "nothing.txt");
   refused("m.spincat frames --every 0", "--every");

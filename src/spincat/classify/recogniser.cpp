@@ -22,6 +22,7 @@ namespace {
 // What depth cameras see, generously.
 constexpr double kNearest = 0.1;  // metres
 constexpr double kFurthest = 20.0;
+constexpr float kFurthestTable = 3.5F;  // on which such a camera tells objects apart
 
 constexpr int kStride = 4;                 // every fourth pixel both ways is looked at
 constexpr std::size_t kFewReadings = 300;  // of these
@@ -124,11 +125,13 @@ SeenFrame Recogniser::Sight::look_at(const DepthImage& image, const Intrinsics& 
     frame.status = FrameStatus::wrong_units;
   } else {
     frame.table = find_table(image, intrinsics, settings_.table, table_);
-    frame.status = frame.table ? FrameStatus::empty_table : FrameStatus::no_table;
+    frame.status = !frame.table                           ? FrameStatus::no_table
+                   : frame.table->offset > kFurthestTable ? FrameStatus::wrong_units
+                                                          : FrameStatus::empty_table;
   }
   table_ = frame.table;
   frame.seconds.table = watch.lap();
-  if (frame.table) {
+  if (frame.status == FrameStatus::empty_table) {
     frame.segmentation = segment(image, intrinsics, *frame.table, settings_.segment);
     frame.seconds.segment = watch.lap();
   }

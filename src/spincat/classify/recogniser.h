@@ -33,7 +33,7 @@ enum class FrameStatus {
   empty_table,   // a table, and nothing on it
   no_table,      // no plane holds enough of the readings
   few_readings,  // hardly a pixel has a depth
-  wrong_units,   // most readings are nearer or further than such cameras see
+  wrong_units,   // most readings, or the table, are nearer or further than such cameras see
 };
 
 // One object of a frame.
@@ -62,7 +62,7 @@ struct SeenFrame {
   FrameStatus status = FrameStatus::few_readings;
   double median_depth = 0.0;  // of the readings, in metres; 0 where there are none
   std::optional<SupportPlane> table;
-  Segmentation segmentation;        // ids has no pixels where there is no table
+  Segmentation segmentation;        // ids has no pixels where there is no table, or too far a one
   std::vector<SeenObject> objects;  // in the order of segmentation.objects
   FrameSeconds seconds;
 };

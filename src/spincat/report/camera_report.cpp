@@ -114,10 +114,14 @@ std::string why_nothing(const SeenFrame& frame) {
                        "no object on the table: {} pixels in patches too small, {} too low, {} beside the table",
                        left.too_few, left.too_low, left.outside);
     case FrameStatus::no_table:
-      return "no table: no plane holds enough of the readings (is --up right?)";
+      return "no table: no plane holds enough of the readings (is --up-direction right?)";
     case FrameStatus::few_readings:
       return "hardly a pixel has a depth";
     case FrameStatus::wrong_units:
+      if (frame.table) {
+        return fmt::format("the plane with most readings is {:.3g} m away, too far for a table: are --units right?",
+                           frame.table->offset);
+      }
       return fmt::format("readings around {:.3g} m are beyond what depth cameras see: are --units right?",
                          frame.median_depth);
   }

@@ -25,7 +25,8 @@ constexpr int kFirstObject = 20;        // labels below are the table's
 
 // For each labelled part of a scene the best intersection over union with an object that was found.
 std::vector<double> agreements(const fs::path& scene, const CameraCalibration& calibration) {
-  const DepthImage image = decode_depth_png(read_file(scene / "depth.png"), calibration.units_per_metre);
+  const DepthImage image =
+      decode_depth_png(read_file(scene / "depth.png"), calibration.units_per_metre.value_or(kUsualUnits));
   const DepthImage labels = decode_depth_png(read_file(scene / "label.png"), 1.0);
   const std::optional<SupportPlane> table = find_table(image, calibration.intrinsics, {});
   if (!table) {

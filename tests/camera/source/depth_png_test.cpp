@@ -88,27 +88,44 @@ TEST(DepthPng, UnpacksNoMoreThanThePictureTakes) {
             std::string::npos);
 }
 
-TEST(DepthPng, ReadsPixelsOfBothDepthsInterlacedOrNot) {
+TEST(DepthPng, ReadsPixelsInterlacedOrNot) {
   using namespace std::string_literals;
   // 1 x 1: the first of Adam7's passes has the only pixel
   for (const char interlaced : {'\0', '\1'}) {
     EXPECT_EQ(decode_depth_png(test::png_file(1, 1, 16, interlaced, test::png_chunk("IDAT", packed("\0\2\1"s))), 1.0)
                   .at(0, 0),
               513.0F);
-    EXPECT_EQ(
-        decode_depth_png(test::png_file(1, 1, 8, interlaced, test::png_chunk("IDAT", packed("\0\x80"s))), 1.0).at(0, 0),
-        128.0F);
   }
 }
 
-// 1, 2 and 4 bits would be stretched to 8: a grey tone, no depth.
+// Grey tones for people to look at: near or far, but no units of anything.
 TEST(DepthPng, RefusesPixelsOfFewBits) {
   using namespace std::string_literals;
-  for (const char bits : {'\1', '\2', '\4'}) {
+  for (const char bits : {'\1', '\2', '\4', '\x8'}) {
     const std::string bytes = test::png_file(1, 1, bits, 0, test::png_chunk("IDAT", packed("\0\x80"s)));
-    EXPECT_EQ(input_error([&] { decode_depth_png(bytes, 1.0); }), "has pixels of "s + static_cast<char>('0' + bits) +
-                                                                      (bits == 1 ? " bit" : " bits") +
-                                                                      " where 16 or 8 bits were expected");
+    EXPECT_EQ(input_error([&] { decode_depth_png(bytes, 1.0); }),
+              "has pixels of "s + static_cast<char>('0' + bits) + (bits == 1 ? " bit" : " bits") +
+                  " where 16 were expected: grey tones, and no depths");
+  }
+}
+
+TEST(DepthPng, TellsKindsOfPicturesByTheirFirstBytes) {
+  const std::string depths = encode_depth_png(thumbnail(), 1000.0);
+  EXPECT_EQ(kind_of_picture(depths.substr(0, kKindBytes)), PictureKind::depths);
+  EXPECT_EQ(kind_of_picture(depths.substr(0, kKindBytes - 1)), PictureKind::unknown);
+  EXPECT_EQ(kind_of_picture("x" + depths), PictureKind::unknown);
+  EXPECT_EQ(kind_of_picture(test::png_file(1, 1, 8, 0, "")), PictureKind::few_bits);
+  EXPECT_EQ(kind_of_picture(test::png_file(1, 1, 1, 0, "")), PictureKind::few_bits);
+  for (const LodePNGColorType type : {LCT_RGB, LCT_RGBA, LCT_GREY_ALPHA}) {
+    for (const unsigned bits : {8U, 16U}) {
+      std::vector<unsigned char> file;
+      lodepng::State state;
+      state.info_raw = lodepng_color_mode_make(type, bits);
+      state.info_png.color = state.info_raw;
+      state.encoder.auto_convert = 0;
+      ASSERT_EQ(lodepng::encode(file, std::vector<unsigned char>(64, 9), 2, 2, state), 0U);
+      EXPECT_EQ(kind_of_picture({reinterpret_cast<char*>(file.data()), file.size()}), PictureKind::colours);
+    }
   }
 }
 

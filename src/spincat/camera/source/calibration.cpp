@@ -8,6 +8,7 @@
 #include <map>
 #include <string>
 
+#include "spincat/camera/source/calibration_formats.h"
 #include "spincat/error.h"
 #include "spincat/files/file.h"
 #include "spincat/files/paths.h"
@@ -35,16 +36,8 @@ std::map<std::string, double, std::less<>> numbers_of(std::string_view text) {
   return numbers;
 }
 
-std::optional<int> pixels(std::string_view name, double value) {
-  if (!(value >= 1.0 && value <= 8'192.0)) {
-    throw InputError(fmt::format("{} {} is out of range (1 to 8192 pixels)", name, value));
-  }
-  return static_cast<int>(value);
-}
-
-}  // namespace
-
-CameraCalibration parse_calibration(std::string_view text) {
+// Of lines "fx 525".
+CameraCalibration parse_own_calibration(std::string_view text) {
   CameraCalibration result;
   const auto numbers = numbers_of(text);
   for (const auto& [name, to] : {std::pair{"fx", &result.intrinsics.fx},
@@ -61,13 +54,29 @@ CameraCalibration parse_calibration(std::string_view text) {
     if (name == "units_per_metre") {
       result.units_per_metre = value;
     } else if (name == "width") {
-      result.width = pixels(name, value);
+      result.width = checked_pixels(name, value);
     } else if (name == "height") {
-      result.height = pixels(name, value);
+      result.height = checked_pixels(name, value);
     }
   }
-  if (!(result.units_per_metre >= 1e-3 && result.units_per_metre <= 1e9)) {
-    throw InputError(fmt::format("units_per_metre {} is out of range (0.001 to 1000000000)", result.units_per_metre));
+  return result;
+}
+
+}  // namespace
+
+int checked_pixels(std::string_view name, double value) {
+  if (!(value >= 1.0 && value <= 8'192.0)) {
+    throw InputError(fmt::format("{} {} is out of range (1 to 8192 pixels)", name, value));
+  }
+  return static_cast<int>(value);
+}
+
+CameraCalibration parse_calibration(std::string_view text) {
+  const CameraCalibration result =
+      is_foreign_calibration(text) ? parse_foreign_calibration(text) : parse_own_calibration(text);
+  const double units = result.units_per_metre.value_or(kUsualUnits);
+  if (!(units >= 1e-3 && units <= 1e9)) {
+    throw InputError(fmt::format("units_per_metre {} is out of range (0.001 to 1000000000)", units));
   }
   result.intrinsics.validate();
   return result;
@@ -79,8 +88,10 @@ CameraCalibration read_calibration(const std::filesystem::path& file) {
 
 std::string calibration_text(const CameraCalibration& calibration) {
   const Intrinsics& k = calibration.intrinsics;
-  std::string text = fmt::format("fx {}\nfy {}\ncx {}\ncy {}\nunits_per_metre {}\n", k.fx, k.fy, k.cx, k.cy,
-                                 calibration.units_per_metre);
+  std::string text = fmt::format("fx {}\nfy {}\ncx {}\ncy {}\n", k.fx, k.fy, k.cx, k.cy);
+  if (calibration.units_per_metre) {
+    text += fmt::format("units_per_metre {}\n", *calibration.units_per_metre);
+  }
   if (calibration.width) {
     text += fmt::format("width {}\n", *calibration.width);
   }

@@ -29,16 +29,17 @@ struct Free {
 };
 using Raw = std::unique_ptr<unsigned char[], Free>;
 
-// The pixels as grey numbers of `bytes_each` bytes. No more is unpacked than a picture of this size can need: what is
+// The pixels as grey numbers of two bytes. No more is unpacked than a picture of this size can need: what is
 // packed may be a thousand times as large.
-Raw decode_pixels(std::string_view bytes, unsigned width, unsigned height, unsigned bytes_each) {
+Raw decode_pixels(std::string_view bytes, unsigned width, unsigned height) {
+  constexpr unsigned kBytesOfPixel = 2;
   constexpr std::size_t kFilters = 3;  // a byte before each line; interlaced, there are twice as many lines
   lodepng::State state;
   state.info_raw.colortype = LCT_GREY;
-  state.info_raw.bitdepth = 8 * bytes_each;
+  state.info_raw.bitdepth = 8 * kBytesOfPixel;
   state.decoder.read_text_chunks = 0;
   state.decoder.max_icc_size = kMostProfile;
-  state.decoder.zlibsettings.max_output_size = (std::size_t{width} * bytes_each + kFilters) * (height + 1);
+  state.decoder.zlibsettings.max_output_size = (std::size_t{width} * kBytesOfPixel + kFilters) * (height + 1);
   unsigned char* raw = nullptr;
   const unsigned error =
       lodepng_decode(&raw, &width, &height, &state, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
@@ -48,6 +49,19 @@ Raw decode_pixels(std::string_view bytes, unsigned width, unsigned height, unsig
 }
 
 }  // namespace
+
+PictureKind kind_of_picture(std::string_view bytes) {
+  constexpr std::string_view kSignature = "\x89PNG\r\n\x1A\n";
+  constexpr std::size_t kPlaceOfBits = 24;
+  constexpr std::size_t kPlaceOfColours = 25;
+  if (bytes.size() < kKindBytes || !bytes.starts_with(kSignature)) {
+    return PictureKind::unknown;
+  }
+  if (bytes[kPlaceOfColours] != LCT_GREY) {
+    return PictureKind::colours;
+  }
+  return bytes[kPlaceOfBits] == 16 ? PictureKind::depths : PictureKind::few_bits;
+}
 
 DepthImage decode_depth_png(std::string_view bytes, double units_per_metre, const ReadLimits& limits) {
   const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
@@ -62,16 +76,15 @@ DepthImage decode_depth_png(std::string_view bytes, double units_per_metre, cons
     throw InputError(fmt::format("is {} x {} pixels large (at most {} x {})", width, height, kMostPixels, kMostPixels));
   }
   const unsigned bits = state.info_png.color.bitdepth;
-  if (bits != 8 && bits != 16) {  // as few would be stretched to 8, and are no units of anything
-    throw InputError(
-        fmt::format("has pixels of {} bit{} where 16 or 8 bits were expected", bits, bits == 1 ? "" : "s"));
+  if (bits != 16) {
+    throw InputError(fmt::format("has pixels of {} bit{} where 16 were expected: grey tones, and no depths", bits,
+                                 bits == 1 ? "" : "s"));
   }
   check_growth(kBytesEach * width * height, bytes.size(), limits);
-  const unsigned bytes_each = bits / 8;
-  const Raw raw = decode_pixels(bytes, width, height, bytes_each);
+  const Raw raw = decode_pixels(bytes, width, height);
   DepthImage image(static_cast<int>(width), static_cast<int>(height));
   for (std::size_t i = 0; i < image.depth.size(); ++i) {
-    const unsigned units = bytes_each == 2 ? raw[2 * i] * 256U + raw[2 * i + 1] : raw[i];
+    const unsigned units = raw[2 * i] * 256U + raw[2 * i + 1];
     image.depth[i] = static_cast<float>(units / units_per_metre);
   }
   return image;

@@ -65,23 +65,29 @@ class FrameSource {
 
   // Leaves the next frame out, where there is one. Does not throw for a frame that cannot be read.
   virtual void skip();
+
+  // What its user should know of how it was opened, a line each.
+  virtual std::vector<std::string> notes() const;
 };
 
 struct FrameSettings {
-  std::optional<std::filesystem::path> calibration;  // a file as read_calibration reads it; else the folder's
-                                                     // camera.txt, else that of a Kinect
-                                                     // (640 x 480)
-  std::optional<double> units_per_metre;             // of the numbers in depth pictures; else the calibration's
+  std::optional<std::filesystem::path> calibration;  // a file as read_calibration reads it; else one that lies with the
+                                                     // frames, else that of a Kinect (640 x 480)
+  std::optional<double> units_per_metre;             // of the numbers in depth pictures; else the calibration's; else
+                                                     // 5000 of a recording of TUM's, 1000 of others
   bool loop = false;                                 // after the last frame comes the first
   ReadLimits limits;                                 // of each frame's file
 };
 
-// A recording: a folder of grey PNG files in the order of their names (of TUM's depth.txt where there is one, which
-// gives times as well), a folder of organized PCD files, or one file of either kind. An organized PCD carries its own
-// calibration. Throws InputError naming the file or folder when there is no frame, or the list or the calibration
-// cannot be read. What a folder holds or a list names must be a regular file (or a link to one): else that frame, list
-// or calibration cannot be read. The list's last line is left out where it has no end and is no line, or names a file
-// that is not there: it was cut off. One file that is named by itself may be a pipe.
+// A recording: a folder of grey PNG files of 16 bits in the order of their names (of TUM's depth.txt where there is
+// one, which gives times as well), a folder of organized PCD files, or one file of either kind. An organized PCD
+// carries its own calibration. Beside depth pictures those in colours or of fewer bits are passed over; a folder
+// without depth pictures may have them in a sub-folder "depth". A calibration that lies with the frames is camera.txt,
+// or one of the names that other programs give theirs (docs/guide/camera.md). Throws InputError naming the file or
+// folder when there is no frame, or the list or the calibration cannot be read. What a folder holds or a list names
+// must be a regular file (or a link to one): else that frame, list or calibration cannot be read. The list's last line
+// is left out where it has no end and is no line, or names a file that is not there: it was cut off. One file that is
+// named by itself may be a pipe.
 std::unique_ptr<FrameSource> open_recording(const std::filesystem::path& place, const FrameSettings& settings);
 
 }  // namespace spincat

@@ -174,6 +174,16 @@ TEST_F(RecordingFiles, ChoosesTheFolderThatIsCalledDepth) {
   EXPECT_EQ(frames_of(*open()), (Frames{{"0.png", 1.0F}}));
 }
 
+TEST_F(RecordingFiles, SaysWhatIsWrongWithTheDepthsInAFolder) {
+  dir_.write("depth/0.png", grey_picture());
+  dir_.write("rgb/0.png", colour_picture());
+  EXPECT_EQ(input_error([&] { open(); }),
+            place("depth") + ": holds no depth pictures (grey, 16 bits): only 1 picture of 8 bits or fewer");
+  dir_.write("depth_raw/0.png", depth_picture(1.0F));  // the others are for people to look at
+  dir_.write("camera.txt", kCamera);
+  EXPECT_EQ(frames_of(*open()), (Frames{{"0.png", 1.0F}}));
+}
+
 TEST_F(RecordingFiles, FindsTheCalibrationThatLiesWithTheFrames) {
   const struct {
     const char* file;
@@ -185,6 +195,7 @@ TEST_F(RecordingFiles, FindsTheCalibrationThatLiesWithTheFrames) {
       {"intrinsics.txt", "5 0 2 0 5 1 0 0 1"},             // SUN3D
       {"camera-intrinsics.txt", "5 0 2\n0 5 1\n0 0 1\n"},  // 3DMatch
       {"intrinsics/only.json", R"({"fx": 5, "fy": 5, "ppx": 2, "ppy": 1})"},
+      {"Depth_Intrinsics.txt", "5 5 2 1"},
       {"camera_info.yaml", "K: [5, 0, 2, 0, 5, 1, 0, 0, 1]\n"},
   };
   for (const auto& each : kCases) {
@@ -193,6 +204,7 @@ TEST_F(RecordingFiles, FindsTheCalibrationThatLiesWithTheFrames) {
     dir.write("depth/0.png", depth_picture(1.0F));
     dir.write("color/0.png", colour_picture());
     dir.write("intrinsic/intrinsic_color.txt", "9 0 2 0\n0 9 1 0\n0 0 1 0\n0 0 0 1\n");
+    dir.write("intrinsics_color.json", "{torn");
     dir.write("intrinsic/extrinsic_depth.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
     if (std::string(each.file).find("intrinsic_depth") == std::string::npos) {
       fs::remove_all(dir / "intrinsic");
@@ -253,7 +265,10 @@ TEST_F(RecordingFiles, KnowsTumsUnits) {
     dir_.write(root + "/camera.txt", std::string(kCamera) + "units_per_metre 1000\n");
     EXPECT_NEAR(units_of(root, {}), 1000.0F, 1.0F);
   }
-  // A list alone is nobody's in particular.
+  // A list alone is TUM's by its title, or else nobody's in particular.
+  dir_.write("titled/depth.txt", list);
+  dir_.write("titled/depth/a.png", depth_picture(1.0F));
+  EXPECT_NEAR(units_of("titled", camera), 5000.0F, 1.0F);
   dir_.write("own/depth.txt", "0 a.png\n");
   dir_.write("own/a.png", depth_picture(1.0F));
   EXPECT_NEAR(units_of("own", camera), 1000.0F, 1.0F);

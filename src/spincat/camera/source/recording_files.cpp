@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -175,22 +177,36 @@ std::vector<std::string> folders_in(const fs::path& folder) {
   return names;
 }
 
-bool holds_frames(const fs::path& folder) {
+enum class Content { nothing, other_pictures, frames };
+
+Content content_of(const fs::path& folder) {
   try {
-    return fs::exists(status_of(folder / "depth.txt")) || candidates_in(folder).any();
+    const Candidates found = candidates_in(folder);
+    return found.any() || fs::exists(status_of(folder / "depth.txt")) ? Content::frames
+           : found.colours + found.few_bits > 0                       ? Content::other_pictures
+                                                                      : Content::nothing;
   } catch (const InputError&) {  // one that we may not look into holds nothing for us
-    return false;
+    return Content::nothing;
   }
 }
 
-// The sub-folder that holds the depths: "depth", or the only one with that in its name.
+// The sub-folder that holds the depths: "depth", or the only one with that in its name. Where none has frames, one with
+// other pictures: it can say what is wrong with them.
 std::optional<fs::path> depth_folder(const fs::path& folder, std::vector<std::string> names) {
-  std::erase_if(names, [&](const std::string& name) { return !is_named_depth(name) || !holds_frames(folder / name); });
-  const auto exact = std::ranges::find(names, "depth", lower_case);
-  if (exact != names.end()) {
-    return folder / *exact;
+  std::erase_if(names, std::not_fn(is_named_depth));
+  for (const Content wanted : {Content::frames, Content::other_pictures}) {
+    std::vector<std::string> those;
+    std::ranges::copy_if(names, std::back_inserter(those),
+                         [&](const std::string& name) { return content_of(folder / name) == wanted; });
+    const auto exact = std::ranges::find(those, "depth", lower_case);
+    if (exact != those.end() || those.size() == 1) {
+      return folder / (exact != those.end() ? *exact : those.front());
+    }
+    if (!those.empty()) {
+      break;
+    }
   }
-  return names.size() == 1 ? std::optional(folder / names.front()) : std::nullopt;
+  return {};
 }
 
 // The first three names of a list.
@@ -210,7 +226,7 @@ std::string in_words(const std::vector<std::string>& names) {
   if (found.colours > 0 && found.few_bits == 0) {
     problem = fmt::format("holds no depth pictures: each of its {} .png files is a picture in colours", found.colours);
   }
-  std::erase_if(folders, [&](const std::string& name) { return !holds_frames(place / name); });
+  std::erase_if(folders, [&](const std::string& name) { return content_of(place / name) != Content::frames; });
   if (!folders.empty()) {
     problem += fmt::format("; its sub-folder{} {} {}", folders.size() == 1 ? "" : "s", in_words(folders),
                            folders.size() == 1 ? "does" : "do");
@@ -223,15 +239,17 @@ bool is_there(const fs::path& file) {
   return fs::is_regular_file(file, error);
 }
 
-// TUM's recordings have a list for each camera, or one of what belongs together.
+// TUM's recordings have a list for each camera with a title, or one of what belongs together.
 bool is_of_tum(const fs::path& folder) {
+  constexpr std::string_view kTitle = "# depth maps";
   const auto has = [&](const char* name) { return is_there(folder / name); };
   return (has("depth.txt") && (has("rgb.txt") || has("groundtruth.txt") || has("accelerometer.txt"))) ||
-         has("associations.txt") || has("association.txt") || has("associate.txt");
+         has("associations.txt") || has("association.txt") || has("associate.txt") ||
+         (has("depth.txt") && read_file(folder / "depth.txt", kTitle.size()) == kTitle);
 }
 
-// Of the calibrations in a folder "intrinsic" the one for depths.
-std::optional<fs::path> calibration_in(const fs::path& folder) {
+// Of the folder's files with the word in their names the calibration for depths: the one that says so, or the only one.
+std::optional<fs::path> calibration_in(const fs::path& folder, std::string_view word) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) {
     return {};
@@ -241,8 +259,10 @@ std::optional<fs::path> calibration_in(const fs::path& folder) {
     const std::string name = lower_case(entry.path().filename().string());
     const std::string extension = lower_extension(entry.path());
     constexpr std::array<std::string_view, 4> kExtensions = {".txt", ".json", ".yaml", ".yml"};
-    if (entry.is_regular_file(error) && std::ranges::find(kExtensions, extension) != kExtensions.end() &&
-        name.find("extrinsic") == std::string::npos) {
+    const bool is_other = name.find("extrinsic") != std::string::npos || name.find("color") != std::string::npos ||
+                          name.find("rgb") != std::string::npos;
+    if (std::ranges::find(kExtensions, extension) != kExtensions.end() && !is_other &&
+        name.find(word) != std::string::npos && is_there(entry.path())) {
       names.push_back(entry.path().filename().string());
     }
   });
@@ -260,17 +280,15 @@ std::optional<fs::path> calibration_with(const fs::path& folder) {
   if (fs::exists(status_of(folder / kOwnCalibration))) {
     return folder / kOwnCalibration;
   }
-  constexpr std::array kNames = {"intrinsic.json",         "intrinsics.json",       "camera_intrinsic.json",
-                                 "camera_intrinsics.json", "intrinsic.txt",         "intrinsics.txt",
-                                 "camera-intrinsics.txt",  "camera_intrinsics.txt", "depth_intrinsics.json",
-                                 "depth_intrinsics.txt",   "camera_info.yaml",      "camera_info.yml",
-                                 "depth_camera_info.yaml", "depth_camera_info.yml", "camera.json"};
-  const auto* const name = std::ranges::find_if(kNames, [&](const char* each) { return is_there(folder / each); });
-  if (name != kNames.end()) {
-    return folder / *name;
+  for (const char* name : {"camera.json", "scene_camera.json", "camera_info.yaml", "camera_info.yml",
+                           "depth_camera_info.yaml", "depth_camera_info.yml", "camera_primesense.json"}) {
+    if (is_there(folder / name)) {
+      return folder / name;
+    }
   }
-  for (const char* sub_folder : {"intrinsic", "intrinsics"}) {
-    if (const std::optional<fs::path> file = calibration_in(folder / sub_folder)) {
+  for (const auto& [place, word] :
+       {std::pair{folder, "intrinsic"}, {folder / "intrinsic", ""}, {folder / "intrinsics", ""}}) {
+    if (const std::optional<fs::path> file = calibration_in(place, word)) {
       return file;
     }
   }

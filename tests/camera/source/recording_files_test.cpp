@@ -67,7 +67,7 @@ TEST_F(RecordingFiles, PassesOverWhatLiesBesideDepthPictures) {
   dir_.write("rec_Depth_1001.png", depth_picture(2.0F));
   dir_.write("rec_Depth_1000.PNG", depth_picture(1.0F));
   const auto source = open();
-  EXPECT_EQ(source->notes(), Notes{place() + ": passes over 11 pictures in colours and 1 picture of 8 bits or fewer"});
+  EXPECT_EQ(source->notes(), Notes{place() + ": passes over 11 pictures in colours, 1 picture of 8 bits or fewer"});
   EXPECT_EQ(frames_of(*source), (Frames{{"rec_Depth_1000.PNG", 1.0F}, {"rec_Depth_1001.png", 2.0F}}));
 }
 
@@ -76,6 +76,17 @@ TEST_F(RecordingFiles, SaysNothingWhereNothingIsPassedOver) {
   dir_.write("0.png", depth_picture(1.0F));
   dir_.write("0.jpg", "of the same moment");
   EXPECT_EQ(open()->notes(), Notes{});
+}
+
+// Labels and masks may be grey and of 16 bits, as depths are.
+TEST_F(RecordingFiles, TakesThoseThatAreCalledDepth) {
+  dir_.write("camera.txt", kCamera);
+  dir_.write("000001-depth.png", depth_picture(1.0F));
+  dir_.write("000001-label.png", depth_picture(2.0F));
+  dir_.write("000002-Depth.png", depth_picture(3.0F));
+  const auto source = open();
+  EXPECT_EQ(source->notes(), Notes{place() + ": passes over 1 picture without \"depth\" in the name"});
+  EXPECT_EQ(frames_of(*source), (Frames{{"000001-depth.png", 1.0F}, {"000002-Depth.png", 3.0F}}));
 }
 
 TEST_F(RecordingFiles, CountsFramesWithoutThoseItPassesOver) {
@@ -125,7 +136,7 @@ TEST_F(RecordingFiles, RefusesFoldersWithoutDepthPictures) {
   dir_.write("both/0.png", grey_picture());
   dir_.write("both/1.png", colour_picture());
   EXPECT_EQ(error("both"),
-            "holds no depth pictures (grey, 16 bits): only 1 picture in colours and 1 picture of 8 bits or fewer");
+            "holds no depth pictures (grey, 16 bits): only 1 picture in colours, 1 picture of 8 bits or fewer");
   fs::create_directory(dir_ / "empty");
   EXPECT_EQ(error("empty"), "holds no depth pictures (.png) and no organized clouds (.pcd)");
   EXPECT_EQ(error(""), "holds no depth pictures (.png) and no organized clouds (.pcd)");

@@ -99,9 +99,21 @@ struct Candidates {
   std::vector<std::string> clouds;
   std::size_t few_bits = 0;
   std::size_t colours = 0;
+  std::size_t others = 0;  // of 16 bits without "depth" in their names, where some have it
 
   bool any() const { return !depths.empty() || !clouds.empty(); }
 };
+
+std::string lower_case(std::string text) {
+  for (char& c : text) {
+    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return text;
+}
+
+bool is_named_depth(const fs::path& path) {
+  return lower_case(path.filename().string()).find("depth") != std::string::npos;
+}
 
 PictureKind kind_of_file(const fs::directory_entry& entry) {
   std::error_code error;
@@ -130,17 +142,25 @@ Candidates candidates_in(const fs::path& folder) {
       }
     }
   });
+  const auto named = static_cast<std::size_t>(std::ranges::count_if(found.depths, is_named_depth));
+  if (named > 0 && named < found.depths.size()) {  // masks and labels may have 16 bits, too
+    found.others = std::erase_if(found.depths, std::not_fn(is_named_depth));
+  }
   return found;
 }
 
-// "11 pictures in colours and 1 of 8 bits or fewer"; empty where there are none.
+// "11 pictures in colours, 1 picture of 8 bits or fewer"; empty where there are none.
 std::string other_pictures(const Candidates& found) {
-  const auto counted = [](std::size_t count, const char* what) {
-    return fmt::format("{} picture{} {}", count, count == 1 ? "" : "s", what);
+  std::vector<std::string> parts;
+  const auto add = [&](std::size_t count, const char* what) {
+    if (count > 0) {
+      parts.push_back(fmt::format("{} picture{} {}", count, count == 1 ? "" : "s", what));
+    }
   };
-  std::string text = found.colours > 0 ? counted(found.colours, "in colours") : "";
-  text += found.colours > 0 && found.few_bits > 0 ? " and " : "";
-  return text + (found.few_bits > 0 ? counted(found.few_bits, "of 8 bits or fewer") : "");
+  add(found.colours, "in colours");
+  add(found.few_bits, "of 8 bits or fewer");
+  add(found.others, "without \"depth\" in the name");
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 FrameList frames_of(Candidates found) {
@@ -151,17 +171,6 @@ FrameList frames_of(Candidates found) {
     frames.push_back({std::move(file), static_cast<double>(frames.size()) / kFramesPerSecond});
   }
   return frames;
-}
-
-std::string lower_case(std::string text) {
-  for (char& c : text) {
-    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  }
-  return text;
-}
-
-bool is_named_depth(const fs::path& folder) {
-  return lower_case(folder.filename().string()).find("depth") != std::string::npos;
 }
 
 // The names of the sub-folders, in natural order.

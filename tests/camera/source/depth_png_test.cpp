@@ -88,24 +88,27 @@ TEST(DepthPng, UnpacksNoMoreThanThePictureTakes) {
             std::string::npos);
 }
 
-TEST(DepthPng, ReadsPixelsInterlacedOrNot) {
+TEST(DepthPng, ReadsPixelsOfBothDepthsInterlacedOrNot) {
   using namespace std::string_literals;
   // 1 x 1: the first of Adam7's passes has the only pixel
   for (const char interlaced : {'\0', '\1'}) {
     EXPECT_EQ(decode_depth_png(test::png_file(1, 1, 16, interlaced, test::png_chunk("IDAT", packed("\0\2\1"s))), 1.0)
                   .at(0, 0),
               513.0F);
+    EXPECT_EQ(
+        decode_depth_png(test::png_file(1, 1, 8, interlaced, test::png_chunk("IDAT", packed("\0\x80"s))), 1.0).at(0, 0),
+        128.0F);
   }
 }
 
-// Grey tones for people to look at: near or far, but no units of anything.
+// 1, 2 and 4 bits would be stretched to 8: a grey tone, no depth.
 TEST(DepthPng, RefusesPixelsOfFewBits) {
   using namespace std::string_literals;
-  for (const char bits : {'\1', '\2', '\4', '\x8'}) {
+  for (const char bits : {'\1', '\2', '\4'}) {
     const std::string bytes = test::png_file(1, 1, bits, 0, test::png_chunk("IDAT", packed("\0\x80"s)));
-    EXPECT_EQ(input_error([&] { decode_depth_png(bytes, 1.0); }),
-              "has pixels of "s + static_cast<char>('0' + bits) + (bits == 1 ? " bit" : " bits") +
-                  " where 16 were expected: grey tones, and no depths");
+    EXPECT_EQ(input_error([&] { decode_depth_png(bytes, 1.0); }), "has pixels of "s + static_cast<char>('0' + bits) +
+                                                                      (bits == 1 ? " bit" : " bits") +
+                                                                      " where 16 or 8 bits were expected");
   }
 }
 

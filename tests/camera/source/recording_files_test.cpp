@@ -157,6 +157,14 @@ TEST_F(RecordingFiles, APictureThatIsNamedByItselfStaysAnError) {
   dir_.write("colour.png", colour_picture());
   EXPECT_NE(input_error([&] { open("colour.png")->next(); }).find("colour.png: is a picture in colours"),
             std::string::npos);
+  dir_.write("grey.png", grey_picture());
+  EXPECT_EQ(
+      input_error([&] { open("grey.png")->next(); }),
+      place("grey.png") + ": has pixels of 8 bits or fewer where 16 bits were expected: grey tones, and no depths");
+  dir_.write("depth.txt", "0 grey.png\n1 0.png\n");
+  const auto listed = open();
+  EXPECT_NE(input_error([&] { listed->next(); }).find("8 bits"), std::string::npos);
+  EXPECT_EQ(listed->next()->name, "0.png");
 }
 
 TEST_F(RecordingFiles, FindsTheDepthsOfARecordingInFolders) {

@@ -29,17 +29,16 @@ struct Free {
 };
 using Raw = std::unique_ptr<unsigned char[], Free>;
 
-// The pixels as grey numbers of two bytes. No more is unpacked than a picture of this size can need: what is
+// The pixels as grey numbers of `bytes_each` bytes. No more is unpacked than a picture of this size can need: what is
 // packed may be a thousand times as large.
-Raw decode_pixels(std::string_view bytes, unsigned width, unsigned height) {
-  constexpr unsigned kBytesOfPixel = 2;
+Raw decode_pixels(std::string_view bytes, unsigned width, unsigned height, unsigned bytes_each) {
   constexpr std::size_t kFilters = 3;  // a byte before each line; interlaced, there are twice as many lines
   lodepng::State state;
   state.info_raw.colortype = LCT_GREY;
-  state.info_raw.bitdepth = 8 * kBytesOfPixel;
+  state.info_raw.bitdepth = 8 * bytes_each;
   state.decoder.read_text_chunks = 0;
   state.decoder.max_icc_size = kMostProfile;
-  state.decoder.zlibsettings.max_output_size = (std::size_t{width} * kBytesOfPixel + kFilters) * (height + 1);
+  state.decoder.zlibsettings.max_output_size = (std::size_t{width} * bytes_each + kFilters) * (height + 1);
   unsigned char* raw = nullptr;
   const unsigned error =
       lodepng_decode(&raw, &width, &height, &state, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
@@ -76,15 +75,16 @@ DepthImage decode_depth_png(std::string_view bytes, double units_per_metre, cons
     throw InputError(fmt::format("is {} x {} pixels large (at most {} x {})", width, height, kMostPixels, kMostPixels));
   }
   const unsigned bits = state.info_png.color.bitdepth;
-  if (bits != 16) {
-    throw InputError(fmt::format("has pixels of {} bit{} where 16 were expected: grey tones, and no depths", bits,
-                                 bits == 1 ? "" : "s"));
+  if (bits != 8 && bits != 16) {  // as few would be stretched to 8, and are no units of anything
+    throw InputError(
+        fmt::format("has pixels of {} bit{} where 16 or 8 bits were expected", bits, bits == 1 ? "" : "s"));
   }
   check_growth(kBytesEach * width * height, bytes.size(), limits);
-  const Raw raw = decode_pixels(bytes, width, height);
+  const unsigned bytes_each = bits / 8;
+  const Raw raw = decode_pixels(bytes, width, height, bytes_each);
   DepthImage image(static_cast<int>(width), static_cast<int>(height));
   for (std::size_t i = 0; i < image.depth.size(); ++i) {
-    const unsigned units = raw[2 * i] * 256U + raw[2 * i + 1];
+    const unsigned units = bytes_each == 2 ? raw[2 * i] * 256U + raw[2 * i + 1] : raw[i];
     image.depth[i] = static_cast<float>(units / units_per_metre);
   }
   return image;

@@ -24,7 +24,7 @@ enum class PictureKind {
 inline constexpr std::size_t kKindBytes = 26;
 PictureKind kind_of_picture(std::string_view bytes);
 
-// Reads the bytes of a grey PNG file of 16 bits: depths in 1 / units_per_metre, 0 for no reading. Throws
+// Reads the bytes of a grey PNG file of 16 (or 8) bits: depths in 1 / units_per_metre, 0 for no reading. Throws
 // InputError (without a file name) when it is no such file, damaged, larger than 8,192 x 8,192, or would take more
 // memory than limits.max_growth lets a file of its size take.
 DepthImage decode_depth_png(std::string_view bytes, double units_per_metre, const ReadLimits& limits = {});

@@ -71,6 +71,9 @@ class Recording : public FrameSource {
     if (lower_extension(file) == ".pcd") {
       return frame_of_cloud(read_organized_pcd(bytes, limits_));
     }
+    if (kind_of_picture(bytes) == PictureKind::few_bits) {
+      throw InputError("has pixels of 8 bits or fewer where 16 bits were expected: grey tones, and no depths");
+    }
     Frame frame;
     frame.image = decode_depth_png(bytes, *calibration_.units_per_metre, limits_);
     frame.intrinsics = calibration_.intrinsics;

@@ -20,6 +20,7 @@
 #include "spincat/files/system_error_text.h"
 #include "spincat/geometry/object.h"
 #include "spincat/io/formats/format.h"
+#include "spincat/io/unread_format.h"
 
 namespace spincat {
 namespace {
@@ -52,6 +53,9 @@ const io::ObjectFormat* format_of(const std::filesystem::path& file) {
   // The first bytes only: a file of an unknown kind may be of any size.
   if (std::filesystem::is_regular_file(status) && read_file(file, kFileMagic.size()) == kFileMagic) {
     fail_as_model();
+  }
+  if (const auto unread = unread_format(lower_extension(file))) {
+    throw InputError(fmt::format("spincat does not read {} files; {}", unread->name, unread->advice));
   }
   const std::string extension = file.extension().string();
   throw InputError(fmt::format(

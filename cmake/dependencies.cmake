@@ -13,6 +13,8 @@ find_package(LibSVM 3.24 REQUIRED)
 find_package(TinyGLTFPacked REQUIRED)
 find_package(LodePNG REQUIRED)
 find_package(meshoptimizer REQUIRED)
+find_package(draco 1.5 QUIET CONFIG)  # optional: glTF files that it has compressed
+find_package(EXPAT REQUIRED)
 find_package(Rsvg REQUIRED)
 find_package(ThreeJS REQUIRED)
 if(PROJECT_IS_TOP_LEVEL)

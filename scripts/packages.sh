@@ -9,7 +9,9 @@ packages_build=(
   libsvm-dev           # the solver of the judges' SVMs
   libtinygltf-dev      # glTF and GLB files
   liblodepng-dev       # PNG files
-  libmeshoptimizer-dev # objects small enough for a report
+  libmeshoptimizer-dev # objects small enough for a report; glTF files that it has compressed
+  libdraco-dev         # optional: glTF files that it has compressed
+  libexpat1-dev        # 3MF files
   libjs-three          # and the script that draws them in 3D
   librsvg2-dev pkgconf # the confusion matrix as a PNG file
   nlohmann-json3-dev   # model files, JSON

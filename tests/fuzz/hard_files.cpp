@@ -1,5 +1,6 @@
 #include "fuzz/hard_files.h"
 
+#include <meshoptimizer.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <ostream>
 #include <string_view>
 
+#include "io/zip_bytes.h"
 #include "support/png_bytes.h"
 
 namespace spincat::test {
@@ -283,8 +285,108 @@ std::vector<Hard> object_files() {
   };
 }
 
+// Half of the file is a buffer of zeros, base64; the rest says `text` about it, in which '$' is what `part` repeats.
+std::string gltf_with(std::size_t size, std::string_view text, std::string_view part) {
+  const std::size_t vertices = size / 2 / 16;
+  std::string all = R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":)" + std::to_string(12 * vertices) +
+                    R"(,"uri":"data:;base64,)" + std::string(16 * vertices, 'A') +
+                    R"("}],"bufferViews":[{"buffer":0,"byteLength":)" + std::to_string(12 * vertices) + "}],";
+  for (const char c : text) {
+    if (c == '#') {
+      all += std::to_string(vertices);
+    } else if (c == '$') {
+      all = repeated(size, all, part);
+    } else {
+      all += c;
+    }
+  }
+  return all;
+}
+
+Hard gltf_of(const std::string& name, const std::string& text, const std::string& part) {
+  return {"gltf", name, [=](std::size_t size) { return gltf_with(size, text, part); }};
+}
+
+const std::string kAccessors = R"("accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":#}],)";
+
+// A vertex buffer of meshoptimizer that is all zeros: 16 vertices of 256 bytes in 4 bytes of each of their bytes.
+std::string packed_vertices(std::size_t vertices) {
+  std::vector<unsigned char> packed(meshopt_encodeVertexBufferBound(vertices, 12));
+  const std::string zeros(12 * vertices, '\0');
+  packed.resize(meshopt_encodeVertexBuffer(packed.data(), packed.size(), zeros.data(), vertices, 12));
+  return {packed.begin(), packed.end()};
+}
+
+// As a .glb file of one chunk of text and one of bytes.
+std::string glb_of(std::string text, const std::string& bytes) {
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  const auto size = [](std::size_t number) { return as_bytes(static_cast<std::uint32_t>(number)); };
+  return "glTF" + size(2) + size(28 + text.size() + bytes.size()) + size(text.size()) + "JSON" + text +
+         size(bytes.size()) + "BIN\0"s + bytes;
+}
+
+// As many vertices as may be unpacked; the rest of the file is of no use.
+std::string glb_of_packed_vertices(std::size_t size) {
+  const std::size_t vertices = (16'000'000 + 19 * size) / 110;
+  const std::string packed = packed_vertices(vertices);
+  const std::string length = std::to_string(12 * vertices);
+  const std::string text =
+      R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+      R"("accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":)" +
+      std::to_string(vertices) + R"(}],"buffers":[{"byteLength":)" + std::to_string(std::max(packed.size(), size)) +
+      R"(},{"byteLength":)" + length + R"(}],"bufferViews":[{"buffer":1,"byteLength":)" + length +
+      R"(,"byteStride":12,"extensions":{"EXT_meshopt_compression":{"buffer":0,"byteLength":)" +
+      std::to_string(packed.size()) + R"(,"byteStride":12,"mode":"ATTRIBUTES","count":)" + std::to_string(vertices) +
+      "}}}]}";
+  std::string bytes = packed;
+  bytes.resize(std::max(packed.size(), size));
+  return glb_of(text, bytes);
+}
+
+std::string seven_bits(std::size_t number) {
+  std::string bytes;
+  for (; number > 0x7F; number >>= 7) {
+    bytes += static_cast<char>((number & 0x7F) | 0x80);
+  }
+  return bytes + static_cast<char>(number);
+}
+
+// A mesh of Draco with as many faces as may be, and points of three numbers of no byte each; the rest is of no use.
+std::string glb_of_draco_points(std::size_t size) {
+  const std::size_t faces = (16'000'000 + 19 * size) / 600;
+  const std::string header = "DRACO\2\2\1\0\0\0"s;
+  const std::string corners = "\1" + std::string(3 * faces, '\0');  // not packed
+  const std::string position = "\1\1\0\1\3\0\0\1\xFE\0\0"s;         // one attribute, bytes, not packed
+  std::string mesh = header + seven_bits(faces) + seven_bits(3 * faces) + corners + position;
+  mesh.resize(size);
+  return glb_of(R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{},)"
+                R"("extensions":{"KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":0}}}}]}],)"
+                R"("bufferViews":[{"buffer":0,"byteLength":)" +
+                    std::to_string(size) + R"(}],"buffers":[{"byteLength":)" + std::to_string(size) + "}]}",
+                mesh);
+}
+
 std::vector<Hard> gltf_files() {
   return {
+      gltf_of("targets of one accessor",
+              kAccessors + R"("nodes":[{"mesh":0}],"meshes":[{"weights":[1,1],"primitives":[{"attributes":)"
+                           R"({"POSITION":0},"targets":[{"POSITION":0}$]}]}]})",
+              R"(,{"POSITION":0})"),
+      gltf_of("weights", kAccessors + R"("nodes":[{"mesh":0,"weights":[1$]}],"meshes":[{"primitives":[]}]})", ",1"),
+      gltf_of("joints",
+              kAccessors + R"("nodes":[{"mesh":0,"skin":0}],"skins":[{"joints":[0$]}],"meshes":[{"primitives":)"
+                           R"([{"attributes":{"POSITION":0,"JOINTS_0":0,"WEIGHTS_0":0}}]}]})",
+              ",0"),
+      gltf_of("skins",
+              kAccessors + R"("nodes":[{"mesh":0,"skin":0}],"skins":[{"joints":[0]}$],"meshes":[{"primitives":)"
+                           R"([{"attributes":{"POSITION":0,"JOINTS_0":0,"WEIGHTS_0":0}}]}]})",
+              R"(,{"joints":[0]})"),
+      gltf_of("instances",
+              kAccessors + R"("nodes":[{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":)"
+                           R"({"TRANSLATION":0}}}}$],"meshes":[{"primitives":[{"attributes":{}}]}]})",
+              R"(,{"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"SCALE":0}}}})"),
+      {"gltf", "packed vertices", glb_of_packed_vertices},
+      {"gltf", "points of Draco", glb_of_draco_points},
       {"gltf", "nodes that show one mesh", [](std::size_t size) { return repeating_gltf(size, R"(,{"mesh":0})", ""); }},
       {"gltf", "primitives of one accessor",
        [](std::size_t size) { return repeating_gltf(size, "", R"(,{"attributes":{"POSITION":0}})"); }},
@@ -300,6 +402,56 @@ std::vector<Hard> gltf_files() {
       counts("gltf", "members", R"({"asset":{"version":"2.0"})", ",\"#\":0"),
       repeats("gltf", "accessors", R"({"asset":{"version":"2.0"},"accessors":[{})", ",{}", "]}"),
       repeats("gltf", "a long name", R"({"asset":{"version":"2.0","name":")", "a", "\"}}"),
+  };
+}
+
+Hard packed_model(const std::string& name, const std::string& head, const std::string& part, const std::string& tail) {
+  return {"threemf", name, [=](std::size_t size) {
+            // What does not pack keeps the file at its size.
+            std::string noise;
+            for (std::uint32_t x = 1; noise.size() < size; noise += as_bytes(x)) {
+              x ^= x << 13, x ^= x >> 17, x ^= x << 5;
+            }
+            return zip({{"3D/3dmodel.model", repeated(15 * size, head, part, tail)}, {"noise", noise}});
+          }};
+}
+
+std::vector<Hard> archives_and_scans() {
+  const std::string object = "<model><resources><object id=\"1\"><mesh><vertices>";
+  const std::string end = "</vertices></mesh></object></resources></model>";
+  return {
+      packed_model("vertices", object, "<vertex x=\"0\" y=\"0\" z=\"0\"/>", end),
+      packed_model("triangles", object + "<vertex x=\"0\" y=\"0\" z=\"0\"/>", "<triangle v1=\"0\" v2=\"0\" v3=\"0\"/>",
+                   end),
+      packed_model("components", "<model><resources><object id=\"1\">", "<component objectid=\"1\"/>",
+                   "</object></resources></model>"),
+      packed_model("objects", "<model>", "<object id=\"1\"/>", "</model>"),
+      packed_model("items", object + "<vertex x=\"0\" y=\"0\" z=\"0\"/></vertices></mesh></object>",
+                   "<item objectid=\"1\"/>", "</resources></model>"),
+      packed_model("nesting", "<model>", "<a>", ""),
+      packed_model("one word", "<model a=\"", "b", "\"/>"),
+      counts("threemf", "names", "<model>", "<a#/>"),
+      counts("threemf", "objects of their own", "<model>", "<object id=\"#\"/>"),
+      counts("threemf", "files", "<model><object id=\"1\">", "<component objectid=\"1\" path=\"#\"/>"),
+      {"numpy", "bytes",
+       [](std::size_t size) {
+         std::string header =
+             "{'descr': '|u1', 'fortran_order': False, 'shape': (" + std::to_string(size / 3) + ", 3), }";
+         header.resize(100, ' ');
+         return "\x93NUMPY\1\0\x64\0"s + header + std::string(size, '\1');
+       }},
+      repeats("numpy", "a long header", "\x93NUMPY\2\0\xFF\xFF\xFF\0"s, "(1,"),
+      {"las", "points",
+       [](std::size_t size) {
+         std::string header = "LASF" + std::string(20, '\0') + "\1\2";
+         header.resize(227);
+         const auto put = [&](std::size_t at, const std::string& bytes) { header.replace(at, bytes.size(), bytes); };
+         put(96, as_bytes(std::uint32_t{227}));
+         put(105, as_bytes(std::uint16_t{20}));
+         put(107, as_bytes(static_cast<std::uint32_t>(size / 20)));
+         return header + std::string(size, '\0');
+       }},
+      {"kitti", "points", [](std::size_t size) { return std::string(size / 16 * 16, '\0'); }},
   };
 }
 
@@ -348,7 +500,7 @@ std::vector<Hard> lists_and_records() {
 
 std::vector<Hard> hard_files() {
   std::vector<Hard> all = object_files();
-  for (const auto& more : {gltf_files(), lists_and_records(), recordings()}) {
+  for (const auto& more : {gltf_files(), archives_and_scans(), lists_and_records(), recordings()}) {
     all.insert(all.end(), more.begin(), more.end());
   }
   return all;

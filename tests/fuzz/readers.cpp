@@ -15,6 +15,7 @@
 #include <utility>
 #include <variant>
 
+#include "io/zip_bytes.h"
 #include "spincat/camera/source/calibration.h"
 #include "spincat/camera/source/depth_list.h"
 #include "spincat/camera/source/depth_png.h"
@@ -178,6 +179,18 @@ void read_gltf(std::string_view bytes, Refusals& refusals) {
   attempt([&] { check_object(kFormat.read({bytes, kFolder.path()}, {})); }, refusals);
 }
 
+// An archive, and the model of one.
+void read_threemf(std::string_view bytes, Refusals& refusals) {
+  read_object_file<io::threemf_format>(bytes, refusals);
+  read_object_file<io::threemf_format>(zip({{"3D/3dmodel.model", std::string(bytes)}}, false), refusals);
+}
+
+// An array or an archive of arrays, and the only array of an archive.
+void read_numpy(std::string_view bytes, Refusals& refusals) {
+  read_object_file<io::numpy_format>(bytes, refusals);
+  read_object_file<io::numpy_format>(zip({{"points.npy", std::string(bytes)}}), refusals);
+}
+
 void read_csv(std::string_view bytes, Refusals& refusals) {
   const ShortFile file(bytes, ".csv");
   attempt([&] { read_dataset({file.path()}); }, refusals);
@@ -317,6 +330,10 @@ constexpr std::array kReaders = {Reader{"off", read_object_file<io::off_format>}
                                  Reader{"pcd", read_pcd},
                                  Reader{"xyz", read_object_file<io::xyz_format>},
                                  Reader{"gltf", read_gltf},
+                                 Reader{"threemf", read_threemf},
+                                 Reader{"numpy", read_numpy},
+                                 Reader{"las", read_object_file<io::las_format>},
+                                 Reader{"kitti", read_object_file<io::kitti_format>},
                                  Reader{"csv", read_csv},
                                  Reader{"cla", read_cla},
                                  Reader{"model", read_model_file},

@@ -26,11 +26,21 @@ std::vector<fs::path> files_in(const fs::path& folder) {
 }
 
 // What is read in two ways is refused in one of them, and the objects that a list names are not there.
-const std::vector<const char*> kByNature = {
-    "make up no picture",        "the header line names no column",       "no object is left",
-    "is not a spincat file",     "its content is not valid CBOR",         "is no journal of spincat",
-    "is no journal of a sweep",  "is the journal of an older spincat",    "it's no PNG or corrupted",
-    "smaller than a PNG header", "illegal bit depth for this color type", "zlib header"};
+const std::vector<const char*> kByNature = {"is no ZIP archive",
+                                            "no valid XML",
+                                            "holds no array that is a cloud",
+                                            "make up no picture",
+                                            "the header line names no column",
+                                            "no object is left",
+                                            "is not a spincat file",
+                                            "its content is not valid CBOR",
+                                            "is no journal of spincat",
+                                            "is no journal of a sweep",
+                                            "is the journal of an older spincat",
+                                            "it's no PNG or corrupted",
+                                            "smaller than a PNG header",
+                                            "illegal bit depth for this color type",
+                                            "zlib header"};
 
 // By these folders scripts/fuzz and CMake know the readers.
 TEST(Fuzz, EachReaderHasSeeds) {

@@ -41,6 +41,13 @@ inline std::string problem_with(const std::string& name, std::string_view bytes,
   return "(nothing thrown)";
 }
 
+inline void expect_near(const std::vector<Vec3>& found, const std::vector<Vec3>& expected) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_LT((found[i] - expected[i]).norm(), 1e-12) << i;
+  }
+}
+
 inline bool all_finite(const std::vector<Vec3>& points) {
   for (const Vec3& point : points) {
     if (!point.allFinite()) {

@@ -1,11 +1,9 @@
 #include "spincat/io/formats/gltf_document.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
@@ -23,9 +21,11 @@
 #include <vector>
 
 #include "spincat/error.h"
-#include "spincat/files/file.h"
-#include "spincat/files/system_error_text.h"
 #include "spincat/io/formats/binary.h"
+#include "spincat/io/formats/gltf_buffers.h"
+#include "spincat/io/formats/gltf_draco.h"
+#include "spincat/io/formats/gltf_json.h"
+#include "spincat/io/formats/gltf_meshopt.h"
 #include "spincat/io/text_cursor.h"
 
 namespace spincat::io {
@@ -120,17 +120,33 @@ std::uint64_t check_brackets(std::string_view text, const ReadLimits& limits) {
 
 // What has no part in the shape of an object at rest.
 bool is_no_shape(const std::string& key) {
-  static constexpr std::array<std::string_view, 15> kEys{
-      "animations", "cameras", "extensions", "extensionsUsed", "extras",  "images",   "materials", "max",
-      "min",        "name",    "samplers",   "skins",          "targets", "textures", "weights"};
-  return std::find(kEys.begin(), kEys.end(), key) != kEys.end();
+  static constexpr std::array<std::string_view, 11> kKeys{
+      "animations", "cameras", "extensionsUsed", "extras",   "images",  "materials",
+      "max",        "min",     "name",           "samplers", "textures"};
+  return std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end();
+}
+
+// Extensions that say where surfaces are.
+bool is_read_extension(const std::string& name) {
+  static constexpr std::array<std::string_view, 5> kNames{"KHR_draco_mesh_compression", "EXT_meshopt_compression",
+                                                          "KHR_meshopt_compression", "EXT_mesh_gpu_instancing",
+                                                          "KHR_node_visibility"};
+  return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
+}
+
+template <class Drop>
+void erase_members(json& object, Drop drop) {
+  for (auto member = object.begin(); member != object.end();) {
+    member = drop(member.key()) ? object.erase(member) : std::next(member);
+  }
 }
 
 // Recursion is safe here: check_brackets has bounded the depth.
 void leave_out_what_is_no_shape(json& value) {
   if (value.is_object()) {
-    for (auto member = value.begin(); member != value.end();) {
-      member = is_no_shape(member.key()) ? value.erase(member) : std::next(member);
+    erase_members(value, is_no_shape);
+    if (json* extensions = member(value, "extensions"); extensions != nullptr && extensions->is_object()) {
+      erase_members(*extensions, [](const std::string& name) { return !is_read_extension(name); });
     }
   }
   if (value.is_structured()) {
@@ -146,7 +162,6 @@ json parse(std::string_view text) {
     if (!document.is_object()) {
       throw InputError("is no glTF file: its JSON is not an object");
     }
-    leave_out_what_is_no_shape(document);
     return document;
   } catch (const json::parse_error& error) {
     throw InputError(fmt::format("is no valid JSON at byte {}", error.byte));
@@ -155,10 +170,60 @@ json parse(std::string_view text) {
   }
 }
 
+// glTF 1.0 has names where 2.0 has numbers.
+void check_version(const json& document) {
+  const json* asset = member(document, "asset");
+  const json* version = asset != nullptr ? member(*asset, "version") : nullptr;
+  std::string text = version != nullptr ? version->is_string() ? version->get<std::string>() : version->dump() : "";
+  const json* meshes = member(document, "meshes");
+  if (text.empty() && meshes != nullptr && meshes->is_object()) {
+    text = "1.0";
+  }
+  const std::string major = text.substr(0, text.find('.'));
+  if (!major.empty() && major != "2") {
+    throw InputError(fmt::format("is a glTF file of version {}; spincat reads version 2",
+                                 major == "1" || major == "3" ? major : in_quotes(text)));
+  }
+}
+
 // Extensions that a file declares indispensable but that say nothing about where its surfaces are.
 bool is_harmless_extension(const std::string& name) {
-  for (const std::string_view prefix : {"KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_",
-                                        "KHR_lights_punctual", "KHR_mesh_quantization", "KHR_xmp"}) {
+  for (const std::string_view prefix : {"KHR_materials_",
+                                        "KHR_texture_",
+                                        "EXT_texture_",
+                                        "MSFT_texture_",
+                                        "KHR_image",
+                                        "KHR_lights",
+                                        "EXT_lights",
+                                        "KHR_mesh_quantization",
+                                        "KHR_accessor_float64",
+                                        "KHR_xmp",
+                                        "KHR_techniques_webgl",
+                                        "KHR_animation",
+                                        "KHR_audio",
+                                        "MSFT_audio",
+                                        "KHR_physics",
+                                        "KHR_interactivity",
+                                        "KHR_node_hoverability",
+                                        "KHR_node_selectability",
+                                        "KHR_environment",
+                                        "EXT_environment",
+                                        "EXT_mesh_manifold",
+                                        "EXT_mesh_features",
+                                        "EXT_instance_features",
+                                        "EXT_structural_metadata",
+                                        "EXT_feature_metadata",
+                                        "CESIUM_primitive_outline",
+                                        "CESIUM_RTC",
+                                        "MSFT_packing_",
+                                        "MSFT_lod",
+                                        "AGI_",
+                                        "ADOBE_",
+                                        "NV_materials",
+                                        "FB_geometry_metadata",
+                                        "GODOT_single_root",
+                                        "OMI_",
+                                        "VRM"}) {
     if (name.starts_with(prefix)) {
       return true;
     }
@@ -167,154 +232,77 @@ bool is_harmless_extension(const std::string& name) {
 }
 
 void check_extensions(const json& document) {
-  const auto required = document.find("extensionsRequired");
-  if (required == document.end() || !required->is_array()) {
+  const json* required = member(document, "extensionsRequired");
+  if (required == nullptr || !required->is_array()) {
     return;
   }
   for (const json& name : *required) {
-    if (name.is_string() && !is_harmless_extension(name.get<std::string>())) {
-      throw InputError(
-          fmt::format("needs the glTF extension {}, which spincat does not read", in_quotes(name.get<std::string>())));
+    const std::string* text = name.get_ptr<const std::string*>();
+    if (text != nullptr && !is_read_extension(*text) && !is_harmless_extension(*text)) {
+      throw InputError(fmt::format("needs the glTF extension {}, which spincat does not read", in_quotes(*text)));
     }
   }
 }
 
-std::size_t array_size(const json& object, const char* key) {
-  const auto found = object.is_object() ? object.find(key) : object.end();
-  return found != object.end() && found->is_array() ? found->size() : 0;
-}
-
 // tinygltf takes hundreds of bytes for each "{}".
 std::uint64_t memory_of(const json& document) {
-  std::size_t primitives = 0;
+  constexpr std::size_t kOnHeap = 64;
+  std::size_t primitives = 0, targets = 0, weights = 0, joints = 0;
   for (std::size_t i = 0; i < array_size(document, "meshes"); ++i) {
-    primitives += array_size(document["meshes"][i], "primitives");
+    const json& mesh = document["meshes"][i];
+    primitives += array_size(mesh, "primitives");
+    weights += array_size(mesh, "weights");
+    for (std::size_t k = 0; k < array_size(mesh, "primitives"); ++k) {
+      targets += array_size(mesh["primitives"][k], "targets");
+    }
+  }
+  for (std::size_t i = 0; i < array_size(document, "nodes"); ++i) {
+    weights += array_size(document["nodes"][i], "weights");
+  }
+  for (std::size_t i = 0; i < array_size(document, "skins"); ++i) {
+    joints += array_size(document["skins"][i], "joints");
   }
   return array_size(document, "nodes") * sizeof(tinygltf::Node) +
          array_size(document, "meshes") * sizeof(tinygltf::Mesh) + primitives * sizeof(tinygltf::Primitive) +
+         targets * (sizeof(std::map<std::string, int>) + kOnHeap) + weights * sizeof(double) + joints * sizeof(int) +
+         array_size(document, "skins") * sizeof(tinygltf::Skin) +
          array_size(document, "accessors") * sizeof(tinygltf::Accessor) +
          array_size(document, "bufferViews") * sizeof(tinygltf::BufferView) +
          array_size(document, "buffers") * sizeof(tinygltf::Buffer) +
          array_size(document, "scenes") * sizeof(tinygltf::Scene);
 }
 
-// %20 and the like in a URI.
-std::string decode_percent(std::string_view uri) {
-  std::string text;
-  while (!uri.empty()) {
-    const std::string_view digits = uri.substr(1, 2);
-    unsigned value = 0;
-    const auto end = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16).ptr;
-    const bool coded = uri[0] == '%' && digits.size() == 2 && end == digits.data() + 2;
-    text += coded ? static_cast<char>(value) : uri[0];
-    uri.remove_prefix(coded ? 3 : 1);
+void erase_extensions(json& value) {
+  if (value.is_object()) {
+    value.erase("extensions");
   }
-  return text;
-}
-
-std::filesystem::path path_beside(const std::filesystem::path& folder, const std::string& uri) {
-  const std::filesystem::path relative = std::filesystem::path(decode_percent(uri)).lexically_normal();
-  const bool outside = relative.is_absolute() || relative.empty() || *relative.begin() == "..";
-  if (outside || relative.native().find('\0') != std::string::npos) {
-    throw InputError(fmt::format("its buffer {} does not lie in the file's own folder", in_quotes(uri)));
-  }
-  return folder / relative;
-}
-
-struct stat status_beside(const std::filesystem::path& folder, const std::string& uri) {
-  struct stat status = {};
-  if (::stat(path_beside(folder, uri).c_str(), &status) != 0) {
-    throw InputError(fmt::format("its buffer {}: {}", in_quotes(uri), system_error_text(errno)));
-  }
-  if (!S_ISREG(status.st_mode)) {
-    throw InputError(fmt::format("its buffer {} is no regular file", in_quotes(uri)));
-  }
-  return status;
-}
-
-std::string read_beside(const std::filesystem::path& folder, const std::string& uri, std::uint64_t length) {
-  try {
-    return read_file(path_beside(folder, uri), length);
-  } catch (const InputError& unread) {
-    throw InputError(fmt::format("its buffer {}: {}", in_quotes(uri), unread.problem()));
-  }
-}
-
-std::uint64_t length_of(const json& buffer, std::size_t number) {
-  const auto length = buffer.is_object() ? buffer.find("byteLength") : buffer.end();
-  if (length == buffer.end() || !length->is_number_unsigned()) {
-    throw InputError(fmt::format("its buffer {} has no byteLength", number));
-  }
-  return length->get<std::uint64_t>();
-}
-
-const std::string* uri_of(const json& buffer) {
-  const auto uri = buffer.find("uri");
-  return uri != buffer.end() ? uri->get_ptr<const std::string*>() : nullptr;
-}
-
-void check_whole(std::size_t number, std::uint64_t size, std::uint64_t length) {
-  if (size < length) {
-    throw InputError(fmt::format("its buffer {} is cut off: {} of {} bytes", number, size, length));
-  }
-}
-
-// In bytes. Buffers written into the text (data:) do not count: they are as long as it.
-struct BufferSizes {
-  std::uint64_t memory = 0;  // that all of them take
-  std::uint64_t largest = 0;
-  std::uint64_t files = 0;  // what is read of the files beside, each counted once
-};
-
-// Looks the buffers up without reading them: a few bytes of text name one, any number of them may name the same file,
-// and that may be of any size.
-BufferSizes measure_buffers(const json& document, const Container& container, const std::filesystem::path& folder) {
-  constexpr std::uint64_t kMost = std::uint64_t{1} << 60;  // beyond all memory; sums stay below the largest number
-  BufferSizes sizes;
-  std::map<std::pair<dev_t, ino_t>, std::uint64_t> read_of_file;  // by which it is known under all its names
-  for (std::size_t i = 0; i < array_size(document, "buffers"); ++i) {
-    const json& buffer = document["buffers"][i];
-    const std::uint64_t length = length_of(buffer, i);
-    const std::string* uri = uri_of(buffer);
-    if (uri != nullptr && tinygltf::IsDataURI(*uri)) {
-      continue;
+  if (value.is_structured()) {
+    for (json& part : value) {
+      erase_extensions(part);
     }
-    if (uri != nullptr) {
-      const struct stat status = status_beside(folder, *uri);
-      check_whole(i, static_cast<std::uint64_t>(status.st_size), length);
-      std::uint64_t& read = read_of_file[{status.st_dev, status.st_ino}];
-      const std::uint64_t before = std::exchange(read, std::max(read, length));
-      sizes.files = std::min(kMost, sizes.files + read - before);
-    } else {
-      check_whole(i, i == 0 && container.binary ? container.binary->size() : 0, length);
-    }
-    sizes.memory = std::min(kMost, sizes.memory + length);
-    sizes.largest = std::min(kMost, std::max(sizes.largest, length));
   }
-  return sizes;
 }
 
-// The bytes of every buffer, after measure_buffers. Leaves its number where its URI was, by which tinygltf asks for it
-// below. Buffers written into the file itself (data:) stay.
-std::vector<std::string> collect_buffers(json& document, const Container& container,
-                                         const std::filesystem::path& folder) {
-  std::vector<std::string> buffers(array_size(document, "buffers"));
-  for (std::size_t i = 0; i < buffers.size(); ++i) {
-    json& buffer = document["buffers"][i];
-    const std::uint64_t length = length_of(buffer, i);
-    const std::string* uri = uri_of(buffer);
-    if (uri != nullptr && tinygltf::IsDataURI(*uri)) {
-      continue;
+// What EXT_mesh_gpu_instancing and KHR_node_visibility say of the nodes. Takes every extension out of the document:
+// tinygltf would take hundreds of bytes for each word of them.
+void take_extensions(json& document, GltfDocument& result) {
+  for (std::size_t i = 0; i < array_size(document, "nodes"); ++i) {
+    const json& node = document["nodes"][i];
+    if (const json* instancing = extension(node, "EXT_mesh_gpu_instancing")) {
+      const json* attributes = member(*instancing, "attributes");
+      const auto accessor = [&](const char* name) {
+        const auto number = attributes != nullptr ? number_of(*attributes, name) : std::nullopt;
+        return number ? static_cast<int>(std::min<std::uint64_t>(*number, std::numeric_limits<int>::max())) : -1;
+      };
+      result.instances[i] = {accessor("TRANSLATION"), accessor("ROTATION"), accessor("SCALE")};
     }
-    if (uri != nullptr) {
-      buffers[i] = read_beside(folder, *uri, length);
-    } else if (container.binary) {
-      buffers[i] = container.binary->substr(0, length);
+    const json* visibility = extension(node, "KHR_node_visibility");
+    const json* visible = visibility != nullptr ? member(*visibility, "visible") : nullptr;
+    if (visible != nullptr && *visible == false) {
+      result.hidden.insert(i);
     }
-    check_whole(i, buffers[i].size(), length);  // files may have changed
-    buffer["uri"] = std::to_string(i);
   }
-  return buffers;
+  erase_extensions(document);
 }
 
 // The only "files" that tinygltf ever gets to see.
@@ -346,36 +334,22 @@ std::string one_line(const std::string& complaint) {
   return line.empty() ? "is no valid glTF file" : "is no valid glTF file: " + line;
 }
 
-}  // namespace
-
-GltfDocument read_gltf_document(std::string_view bytes, const std::filesystem::path& folder, const ReadLimits& limits) {
-  const Container container = open_container(bytes);
-  const std::uint64_t memory_of_values = check_brackets(container.text, limits);
-  json document = parse(container.text);
-  check_extensions(document);
-  const BufferSizes sizes = measure_buffers(document, container, folder);
-  const std::uint64_t size = bytes.size() + sizes.files;
-  const std::uint64_t memory = kWhileGrowing * memory_of(document) + sizes.memory;
-  // Each buffer is there twice while tinygltf takes it over.
-  check_growth(memory_of_values + memory + sizes.largest, size, limits);
-  std::vector<std::string> buffers = collect_buffers(document, container, folder);
+tinygltf::Model read_model(json document, std::vector<std::string> buffers) {
   const std::string text = document.dump();
   document = json();  // tinygltf makes its own: not both at once
   if (text.size() > std::numeric_limits<std::uint32_t>::max()) {
     throw InputError("holds more than 4 GB of JSON");
   }
-
   tinygltf::TinyGLTF reader;
   reader.SetFsCallbacks(callbacks_for(buffers));
   reader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
                            void*) { return true; },
                         nullptr);
-  GltfDocument result{{}, size, memory};
+  tinygltf::Model model;
   std::string error, warning;
   bool read = false;
   try {
-    read = reader.LoadASCIIFromString(&result.model, &error, &warning, text.data(), static_cast<unsigned>(text.size()),
-                                      "");
+    read = reader.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()), "");
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& exception) {
@@ -384,6 +358,32 @@ GltfDocument read_gltf_document(std::string_view bytes, const std::filesystem::p
   if (!read) {
     throw InputError(one_line(error));
   }
+  return model;
+}
+
+}  // namespace
+
+GltfDocument read_gltf_document(std::string_view bytes, const std::filesystem::path& folder, const ReadLimits& limits) {
+  const Container container = open_container(bytes);
+  const std::uint64_t memory_of_values = check_brackets(container.text, limits);
+  json document = parse(container.text);
+  check_version(document);
+  leave_out_what_is_no_shape(document);
+  check_extensions(document);
+  GltfBuffers source(document, container.binary, folder);
+  const BufferSizes sizes = source.measure();
+  GltfDocument result;
+  result.file_size = bytes.size() + sizes.files;
+  result.memory = kWhileGrowing * memory_of(document) + sizes.memory;
+  // Each buffer is there twice while tinygltf takes it over, and unpacking takes time where it takes no memory.
+  check_growth(memory_of_values + result.memory + sizes.largest + meshopt_size(document), result.file_size, limits);
+  std::vector<std::string> buffers = source.collect();
+  unpack_meshopt(document, buffers);
+  result.memory += unpack_draco_primitives(document, buffers, [&](std::uint64_t more) {
+    check_growth(memory_of_values + result.memory + more, result.file_size, limits);
+  });
+  take_extensions(document, result);
+  result.model = read_model(std::move(document), std::move(buffers));
   return result;
 }
 

@@ -86,6 +86,28 @@ std::string ply_of_tiny_indices(std::size_t size) {
          std::string(9, '\1') + as_bytes(static_cast<std::uint32_t>(size)) + std::string(size, '\2');
 }
 
+const std::string kPlyHead = "ply\nformat ascii 1.0\n";
+const std::string kPlyVertices = "property float x\nproperty float y\nproperty float z\n";
+
+// One strip of corners that take two bytes each.
+std::string strip_ply(std::size_t size) {
+  std::string indices;
+  std::size_t count = 0;
+  for (; indices.size() < size; ++count) {
+    indices += " " + std::to_string(count % 3);
+  }
+  return kPlyHead + "element vertex 3\n" + kPlyVertices +
+         "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n" +
+         std::to_string(count) + indices + "\n";
+}
+
+// A face of the first vertex, and others that are not finite.
+std::string unused_ply(std::size_t size) {
+  const std::string body = repeated(size, "0 0 0\n", "nan 0 0\n");
+  return kPlyHead + "element vertex " + std::to_string(std::ranges::count(body, '\n')) + "\n" + kPlyVertices +
+         "element face 1\nproperty list uchar int vertex_index\nend_header\n" + body + "3 0 0 0\n";
+}
+
 // Half of the file is a buffer, the other half names it as often as can be: `part` goes `where`.
 std::string repeating_gltf(std::size_t size, std::string_view nodes, std::string_view primitives) {
   const std::size_t vertices = size / 2 / 16;
@@ -242,8 +264,6 @@ std::vector<Hard> recordings() {
   };
 }
 
-const std::string kPlyHead = "ply\nformat ascii 1.0\n";
-const std::string kPlyVertices = "property float x\nproperty float y\nproperty float z\n";
 const std::string kSweep = "{\"sweep\":1,\"settings\":{\"seed\":1}}\n";
 
 std::vector<Hard> object_files() {
@@ -253,6 +273,8 @@ std::vector<Hard> object_files() {
       counts("off", "vertices with normals", "NOFF # 0\n", "0 0 0 0 0 1\n"),
       counts("off", "faces of no corner", "OFF 1 # 0\n0 0 0\n", "0\n"),
       counts("off", "triangles", "OFF 1 # 0\n0 0 0\n", "3 0 0 0\n"),
+      counts("off", "vertices on one line", "OFF # 0 0\n", "0 0 0 "),
+      counts("off", "unused vertices", "OFF # 0 0\n", "nan 0 0\n"),
       repeats("off", "comments", "OFF", "#\n"),
       repeats("off", "a long word", "", "O"),
       repeats("obj", "one polygon", "v 0 0 0\nf", " 1"),
@@ -270,6 +292,9 @@ std::vector<Hard> object_files() {
                  "element face #\nproperty list uchar int vertex_index\nend_header\n0 0 0\n",
              "0\n"),
       {"ply", "indices of a byte", ply_of_tiny_indices},
+      {"ply", "a strip", strip_ply},
+      counts("ply", "rows on one line", kPlyHead + "element vertex #\n" + kPlyVertices + "end_header\n", "0 0 0 "),
+      {"ply", "vertices that no face uses", unused_ply},
       repeats("stl", "one polygon", "solid\nfacet\nouter loop\n", "vertex 0 0 0\n", "endloop\nendsolid\n"),
       counts("stl", "vertices of their own", "solid\nfacet\nouter loop\n", "vertex 0 0 #\n"),
       repeats("stl", "empty loops", "solid\nfacet\n", "outer\nendloop\n", "endsolid\n"),
@@ -282,6 +307,14 @@ std::vector<Hard> object_files() {
       repeats("xyz", "points with normals", "", "0 0 0 0 0 1\n"),
       repeats("xyz", "one line", "0 0 0", " 0"),
       repeats("xyz", "separators", "0 0 0\n0", ","),
+      repeats("xyz", "decimal commas", "", "0,5 1 2\n"),
+      repeats("xyz", "decimal commas in one line", "0,5 1 2", " 0,5"),
+      repeats("xyz", "names", "x y z", " nx"),
+      repeats("xyz", "comments with names", "", "#x y\n"),
+      repeats("xyz", "empty scans", "", "0\n"),
+      repeats("any", "rows", "", "0 0 0\n"),
+      repeats("any", "a long line", "", "v 0 0 0 "),
+      repeats("any", "wide letters", "v\0 \0"s + "0\0 \0"s + "0\0 \0"s, "0\0\n\0"s),
   };
 }
 

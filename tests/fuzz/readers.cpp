@@ -27,6 +27,7 @@
 #include "spincat/files/magic.h"
 #include "spincat/io/formats/format.h"
 #include "spincat/io/organized_cloud.h"
+#include "spincat/io/read_object.h"
 #include "spincat/parallel/journal.h"
 #include "spincat/parallel/packing.h"
 #include "spincat/settings/setting_table.h"
@@ -191,6 +192,12 @@ void read_numpy(std::string_view bytes, Refusals& refusals) {
   read_object_file<io::numpy_format>(zip({{"points.npy", std::string(bytes)}}), refusals);
 }
 
+// By whatever format the bytes look like.
+void read_any(std::string_view bytes, Refusals& refusals) {
+  attempt([&] { check_object(read_object(ShortFile(bytes, ".obj").path())); }, refusals);
+  attempt([&] { is_object_file(ShortFile(bytes, ".txt").path()); }, refusals);
+}
+
 void read_csv(std::string_view bytes, Refusals& refusals) {
   const ShortFile file(bytes, ".csv");
   attempt([&] { read_dataset({file.path()}); }, refusals);
@@ -334,6 +341,7 @@ constexpr std::array kReaders = {Reader{"off", read_object_file<io::off_format>}
                                  Reader{"numpy", read_numpy},
                                  Reader{"las", read_object_file<io::las_format>},
                                  Reader{"kitti", read_object_file<io::kitti_format>},
+                                 Reader{"any", read_any},
                                  Reader{"csv", read_csv},
                                  Reader{"cla", read_cla},
                                  Reader{"model", read_model_file},

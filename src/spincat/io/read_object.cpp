@@ -18,8 +18,10 @@
 #include "spincat/files/magic.h"
 #include "spincat/files/paths.h"
 #include "spincat/files/system_error_text.h"
+#include "spincat/files/text_encoding.h"
 #include "spincat/geometry/object.h"
 #include "spincat/io/formats/format.h"
+#include "spincat/io/formats/likeness.h"
 #include "spincat/io/unread_format.h"
 
 namespace spincat {
@@ -29,7 +31,7 @@ bool is_one_of(std::string_view extension, const std::vector<std::string_view>& 
   return std::ranges::find(extensions, extension) != extensions.end();
 }
 
-// The format of a file that the user names; nullptr where spincat reads none of that name.
+// The format that a file is called by; nullptr where spincat reads none of that name.
 const io::ObjectFormat* format_of(const std::filesystem::path& file) {
   const std::string extension = lower_extension(file);
   for (const io::ObjectFormat& format : io::object_formats()) {
@@ -64,6 +66,45 @@ const io::ObjectFormat* format_of(const std::filesystem::path& file) {
       fmt::join(object_extensions(), ", ")));
 }
 
+io::Likeness likeness(const io::ObjectFormat& format, std::string_view bytes) {
+  return format.likeness == nullptr ? io::Likeness::none
+                                    : format.likeness(bytes.substr(0, io::kLookedAt), bytes.size());
+}
+
+// The format that a file is called by, unless it begins plainly like one of another.
+const io::ObjectFormat& format_of_content(std::string_view bytes, const io::ObjectFormat& called) {
+  if (likeness(called, bytes) == io::Likeness::plain) {
+    return called;
+  }
+  for (const io::ObjectFormat& format : io::object_formats()) {
+    // Numbers alone may be an OFF file without its first line.
+    const bool is_possible = format.likeness == io::likeness_of_xyz && called.likeness == io::likeness_of_off;
+    if (!is_possible && likeness(format, bytes) == io::Likeness::plain) {
+      return format;
+    }
+  }
+  return called;
+}
+
+// "PLY" of ".ply".
+std::string name_of(const io::ObjectFormat& format) {
+  std::string name(format.extensions.front().substr(1));
+  std::ranges::transform(name, name.begin(), [](char c) { return static_cast<char>(c - 'a' + 'A'); });
+  return name;
+}
+
+Object read_content(const io::ObjectFormat& called, const io::FileContent& content, const ReadLimits& limits) {
+  const io::ObjectFormat& format = format_of_content(content.bytes, called);
+  try {
+    return format.read(content, limits);
+  } catch (const InputError& error) {
+    if (&format == &called) {
+      throw;
+    }
+    throw InputError(error.file(), fmt::format("its content looks like {}: {}", name_of(format), error.problem()));
+  }
+}
+
 Object read(const std::filesystem::path& file, const ReadLimits& limits) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error)) {
@@ -73,14 +114,37 @@ Object read(const std::filesystem::path& file, const ReadLimits& limits) {
   if (format == nullptr) {
     fail_as_unknown(file);
   }
-  const std::string bytes = read_file(file);
+  std::string bytes = read_file(file);
   if (bytes.empty()) {
     throw InputError("is empty");
   }
   if (bytes.starts_with(kFileMagic)) {
     fail_as_model();
   }
-  return format->read({bytes, file.parent_path()}, limits);
+  if (auto text = utf8_of_utf16(bytes)) {
+    bytes = *std::move(text);
+  }
+  return read_content(*format, {bytes, file.parent_path()}, limits);
+}
+
+// Whether a regular file begins plainly like one of a format. One that cannot be read counts: whoever reads it says
+// why.
+bool begins_like(const io::ObjectFormat& format, const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) {
+    return false;
+  }
+  try {
+    std::string first = read_file(file, io::kLookedAt);
+    const bool is_whole = first.size() < io::kLookedAt;
+    if (auto text = utf8_of_utf16(first)) {
+      first = *std::move(text);
+    }
+    return format.likeness != nullptr &&
+           format.likeness(first, is_whole ? first.size() : first.size() + 1) == io::Likeness::plain;
+  } catch (const InputError&) {
+    return true;
+  }
 }
 
 }  // namespace
@@ -103,9 +167,13 @@ Object read_listed_object(const std::filesystem::path& file, const ReadLimits& l
   return read_object(file, limits);
 }
 
+bool has_object_name(const std::filesystem::path& file) {
+  return format_of(file) != nullptr;
+}
+
 bool is_object_file(const std::filesystem::path& file) {
-  const std::vector<std::string>& extensions = object_extensions();
-  return std::ranges::find(extensions, lower_extension(file)) != extensions.end();
+  const io::ObjectFormat* format = format_of(file);
+  return format != nullptr && (is_one_of(lower_extension(file), format->extensions) || begins_like(*format, file));
 }
 
 const std::vector<std::string>& object_extensions() {

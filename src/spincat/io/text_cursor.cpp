@@ -26,6 +26,17 @@ constexpr char to_lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c;
 }
 
+// 0,5 or -1,25e3.
+bool has_decimal_comma(std::string_view word) {
+  const std::size_t comma = word.find(',');
+  if (comma == std::string_view::npos) {
+    return false;
+  }
+  std::string number(word);
+  number[comma] = '.';
+  return is_number(number);
+}
+
 // What the number behind an 'e' comes to; the largest there is where it is larger.
 std::int64_t exponent_value(std::string_view text) {
   constexpr std::int64_t kMost = std::int64_t{1} << 62;  // more than a file can have digits
@@ -73,8 +84,17 @@ bool same_word(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return to_lower(x) == to_lower(y); });
 }
 
-TextCursor::TextCursor(std::string_view text, TextStyle style)
-    : at_(text.data()), end_(text.data() + text.size()), style_(style) {
+bool is_number(std::string_view word) {
+  const bool has_plus = word.starts_with('+') && !word.starts_with("+-");
+  const char* first = word.data() + (has_plus ? 1 : 0);
+  const char* end = word.data() + word.size();
+  double value = 0;
+  const auto [last, error] = std::from_chars(first, end, value);
+  return error != std::errc::invalid_argument && last == end;
+}
+
+TextCursor::TextCursor(std::string_view text, TextStyle style, std::size_t first_line)
+    : at_(text.data()), end_(text.data() + text.size()), line_(first_line), style_(style) {
   if (text.starts_with("\xEF\xBB\xBF")) {
     at_ += 3;  // a byte order mark, which some editors put before UTF-8
   }
@@ -233,7 +253,9 @@ void TextCursor::fail(const std::string& problem) const {
 
 void TextCursor::fail_expecting(const char* what) {
   if (word_on_line()) {
-    fail(fmt::format("expected {}, found {}", what, in_quotes(word())));
+    const std::string_view found = word();
+    fail(fmt::format("expected {}, found {}{}", what, in_quotes(found),
+                     has_decimal_comma(found) ? " (a point is the decimal mark, not a comma)" : ""));
   }
   fail(fmt::format("expected {}, but the {} ends here", what, at_ == end_ ? "file" : "line"));
 }

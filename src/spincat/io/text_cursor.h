@@ -25,9 +25,12 @@ std::string in_quotes(std::string_view text);
 // Whether two words are equal but for upper and lower case.
 bool same_word(std::string_view a, std::string_view b);
 
+// Whether a word is a number, wholly.
+bool is_number(std::string_view word);
+
 class TextCursor {
  public:
-  explicit TextCursor(std::string_view text, TextStyle style = {});
+  explicit TextCursor(std::string_view text, TextStyle style = {}, std::size_t first_line = 1);
 
   // Skips blanks and comments; whether a word follows on this line.
   bool word_on_line();
@@ -44,6 +47,8 @@ class TextCursor {
   void take(std::size_t characters) { at_ += characters; }
   // The rest of the line, comments included.
   std::string_view rest_of_line() const;
+  // All that follows.
+  std::string_view rest() const { return {at_, bytes_left()}; }
 
   // The next word on this line, or on a later one after word_follows(), as a number. `what` is named in the error when
   // there is none: "line 7: expected a coordinate, found 'abc'".
@@ -67,7 +72,7 @@ class TextCursor {
 
   const char* at_;
   const char* end_;
-  std::size_t line_ = 1;
+  std::size_t line_;
   TextStyle style_;
 };
 

@@ -91,6 +91,25 @@ TEST(Obj, IsAPointCloudWithoutFaces) {
   EXPECT_TRUE(read_cloud("a.obj", "vn 0 0 1\nv 0 0 0\nv 1 2 3\n").normals.empty());
 }
 
+TEST(Obj, KeepsVerticesThatAreNotFiniteOutOfTheWay) {
+  expect_square("v nan nan nan\nv 0 0 0\nv 1 0 0\nv inf 0 0\nv 1 1 0\nv 0 1 0\nv 0 -inf 0\nf 2 3 5 6\n");
+  expect_square("v 0 0 0\nv 1 0 0\nv nan 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 -2 5\n");
+  EXPECT_EQ(problem_with("a.obj", "v nan 0 0\nv 0 0 0\nv 1 nan 0\nv 1 1 0\nf 2 3 4\n"),
+            "line 3: a coordinate is not finite");
+  EXPECT_EQ(problem_with("a.obj", "f 1 2 3\nv 0 0 0\nv 1 nan 0\nv 1 1 0\n"), "line 3: a coordinate is not finite");
+  EXPECT_EQ(read_cloud("a.obj", "v 0 0 0\nvn 1 0 0\nv nan 0 0\nvn 0 1 0\nv 1 2 3\nvn 0 0 1\n").normals,
+            (std::vector<Vec3>{{1, 0, 0}, {0, 0, 1}}));
+}
+
+TEST(Obj, NoticesAnEndWithinAFace) {
+  expect_square(kCorners + "f 1/1/1 2/1/1 3/1/1 4/1/1");
+  for (const std::string cut : {"1/1/1 2/1/1 3/1/1 4/1/", "1/1/1 2/1/1 3/1/1 4/1", "1/1/1 2/1/1 3/1/1 4",
+                                "1//1 2//1 3//", "1/1/1 2/1/1", "1", ""}) {
+    EXPECT_EQ(problem_with("a.obj", kCorners + "f " + cut), "line 5: the file ends within a face") << cut;
+    EXPECT_NO_THROW(test::read_bytes("a.obj", kCorners + "f " + cut + "\n")) << cut;
+  }
+}
+
 TEST(Obj, RefusesInWords) {
   EXPECT_EQ(problem_with("a.obj", ""), "is empty");
   EXPECT_EQ(problem_with("a.obj", "o nothing\n"), "holds neither a face nor a point");
@@ -104,7 +123,7 @@ TEST(Obj, RefusesInWords) {
   EXPECT_EQ(problem_with("a.obj", kCorners + "f 1 2 99999999999999999999\n"),
             "line 5: expected a vertex index, found '99999999999999999999'");
   EXPECT_EQ(problem_with("a.obj", "v 0 0\nv 1 1 1\n"), "line 1: expected a coordinate, but the line ends here");
-  EXPECT_EQ(problem_with("a.obj", "\nv 0 0 nan\n"), "line 2: a coordinate must be finite, found 'nan'");
+  EXPECT_EQ(problem_with("a.obj", "\nv 0 0 nan\n"), "holds only points without finite coordinates");
   EXPECT_EQ(problem_with("a.obj", "v 0 0 1e400\n"), "line 1: '1e400' is too large for a number");
   EXPECT_EQ(problem_with("a.obj", "f 1 2 3\n"), "line 1: vertex index 3 is out of range (0 vertices)");
 }

@@ -1,13 +1,16 @@
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "io/bytes.h"
 #include "io/reading.h"
 
 namespace spincat {
 namespace {
 
+using test::big;
 using test::problem_with;
 using test::read_cloud;
 using test::read_mesh;
@@ -57,6 +60,88 @@ TEST(Off, PassesOverColoursNormalsAndTextures) {
   expect_square("STCNOFF 4 1 4\n0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n4 0 1 2 3\n");
 }
 
+TEST(Off, TakesAnyBlankBetweenNumbers) {
+  expect_square("OFF\n4 1 0\n0 0 0 1 0 0 1 1 0 0 1 0\n4 0 1 2 3\n");
+  expect_square("OFF\n4 1 0\n0 0 0 1 0 0\n1 1 0 0 1 0\n4 0 1 2 3 255 0 0\n");
+  expect_square("OFF 4 1 0 0 0 0 1 0 0 1 1 0 0 1 0 4 0 1 2 3");
+  expect_square("OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0 3 0 1 2 3 0 2 3\n");
+  expect_square("OFF\n4 2 0\n0 0 0 1 0 0\n1 1 0 0 1 0\n3 0 1 2 0.5 0.5 0.5\n3 0 2 3 1 1 1 1\n");
+  expect_square("COFF 4 1 0 0 0 0 9 9 9 1 1 0 0 9 9 9 1 1 1 0 9 9 9 1 0 1 0 9 9 9 1 4 0 1 2 3");
+  expect_square("STNOFF 4 1 0 0 0 0 0 0 1 .5 .5 1 0 0 0 0 1 .5 .5 1 1 0 0 0 1 .5 .5 0 1 0 0 0 1 .5 .5 4 0 1 2 3");
+  EXPECT_EQ(read_cloud("a.off", "NOFF 2 0 0 0 0 0 1 0 0 1 2 3 0 0 1").normals,
+            (std::vector<Vec3>{{1, 0, 0}, {0, 0, 1}}));
+}
+
+TEST(Off, PassesOverColoursThatEachVertexHas) {
+  expect_square("OFF\n4 1 4\n0 0 0 255 0 0\n1 0 0 255 0 0\n1 1 0 255 0 0\n0 1 0 255 0 0\n4 0 1 2 3\n");
+}
+
+TEST(Off, RefusesARowWithANumberTooMany) {
+  EXPECT_EQ(problem_with("a.off", "OFF\n4 1 4\n0 0 0\n1 0 0 7\n1 1 0\n0 1 0\n4 0 1 2 3\n"),
+            "line 4: 1 more values than a row should have, but 0 more in line 3");
+  EXPECT_EQ(problem_with("a.off", "OFF\n4 1 4\n7 0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"),
+            "line 4: 0 more values than a row should have, but 1 more in line 3");
+}
+
+TEST(Off, RefusesMoreRowsThanAnnounced) {
+  const std::string vertices = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+  EXPECT_EQ(problem_with("a.off", "OFF\n4 1 0\n" + vertices + "3 0 1 2\n3 0 2 3\n"),
+            "line 8: the file goes on after the 4 vertices and 1 faces that it announces");
+  EXPECT_EQ(problem_with("a.off", "OFF\n4 0 0\n" + vertices + "3 0 1 2\n"),
+            "line 7: the file goes on after the 4 vertices and 0 faces that it announces");
+  EXPECT_EQ(problem_with("a.off", "OFF\n3 1 0\n" + vertices + "3 0 1 2\n"),
+            "line 7: the file goes on after the 3 vertices and 1 faces that it announces");
+  expect_square("OFF\n4 1 99\n" + kSquareBody + "\n\n# 3 0 1 2\n");  // a wrong number of edges
+  expect_square("OFF\n4 1 0\n" + kSquareBody + std::string("\x1A\0 \0", 4));
+}
+
+TEST(Off, KeepsVerticesThatAreNotFiniteOutOfTheWay) {
+  const std::string unused = "OFF\n5 2 0\n0 0 0\nnan nan nan\n1 0 0\n1 1 0\n0 1 0\n";
+  expect_square(unused + "3 0 2 3\n3 0 3 4\n");
+  EXPECT_EQ(problem_with("a.off", unused + "3 0 2 3\n3 0 3 1\n"), "line 4: a coordinate is not finite");
+  EXPECT_EQ(read_cloud("a.off", "NOFF\n3 0 0\n0 0 0 1 0 0\n0 -inf 0 0 1 0\n1 2 3 0 0 1\n").normals,
+            (std::vector<Vec3>{{1, 0, 0}, {0, 0, 1}}));
+}
+
+std::string binary_square(const std::string& name, bool with_normals, const std::string& colour) {
+  std::string bytes = name + " BINARY\n" + big(std::int32_t{4}) + big(std::int32_t{1}) + big(std::int32_t{0});
+  for (const Vec3& vertex : kSquareVertices) {
+    for (const double c : vertex) {
+      bytes += big(static_cast<float>(c));
+    }
+    bytes += with_normals ? big(0.0F) + big(0.0F) + big(1.0F) : "";
+  }
+  bytes += big(std::int32_t{4});
+  for (std::int32_t i = 0; i < 4; ++i) {
+    bytes += big(i);
+  }
+  return bytes + colour;
+}
+
+const std::string kNoColour = big(std::int32_t{0});
+
+TEST(Off, ReadsBytes) {
+  expect_square(binary_square("OFF", false, kNoColour));
+  expect_square(binary_square("NOFF", true, kNoColour));
+  expect_square(binary_square("OFF", false, big(std::int32_t{2}) + big(0.5F) + big(0.5F)));
+  expect_square(binary_square("OFF", false, kNoColour) + "trailing");
+}
+
+TEST(Off, ChecksBytes) {
+  const std::string good = binary_square("OFF", false, kNoColour);
+  EXPECT_EQ(problem_with("a.off", good.substr(0, 40)), "announces 4 vertices, more than fit into the rest of the file");
+  EXPECT_EQ(problem_with("a.off", good.substr(0, 75)), "announces 1 faces, more than fit into the rest of the file");
+  EXPECT_EQ(problem_with("a.off", good.substr(0, 90)), "announces 4 corners, more than fit into the rest of the file");
+  EXPECT_EQ(problem_with("a.off", good.substr(0, good.size() - 1)),
+            "expected the numbers of a colour, but the file ends here");
+  EXPECT_EQ(problem_with("a.off", "OFF BINARY\n" + big(std::int32_t{-1})), "expected the number of vertices, found -1");
+  std::string bad = good;
+  bad[good.size() - 5] = '\4';
+  EXPECT_EQ(problem_with("a.off", bad), "face 0: vertex index 4 is out of range (4 vertices)");
+  EXPECT_EQ(problem_with("a.off", good + good.substr(good.size() - 24)),
+            "24 bytes follow the 4 vertices and 1 faces that it announces");
+}
+
 TEST(Off, ReadsEveryWayToWriteANumber) {
   const PointCloud cloud = read_cloud("a.off", "OFF 2 0 0\n.5 5. +1\n1e-3 -1E+2 1e-999\n");
   EXPECT_EQ(cloud.points, (std::vector<Vec3>{{0.5, 5, 1}, {0.001, -100, 0}}));
@@ -93,7 +178,7 @@ TEST(Off, RefusesInWords) {
             "line 1: is a 4OFF file, whose vertices do not have three coordinates; spincat reads only those that do");
   EXPECT_EQ(problem_with("a.off", "nOFF 5\n1 0 0\n"),
             "line 1: is a nOFF file, whose vertices do not have three coordinates; spincat reads only those that do");
-  EXPECT_EQ(problem_with("a.off", "OFF BINARY\n"), "line 1: is a binary OFF file; spincat reads only the text form");
+  EXPECT_EQ(problem_with("a.off", "OFF BINARY\n"), "expected the number of vertices, but the file ends here");
   EXPECT_EQ(problem_with("a.off", "OFF\n0 0 0\n"), "holds neither a face nor a point");
   EXPECT_EQ(problem_with("a.off", "OFF\nx 1\n"), "line 2: expected the number of vertices, found 'x'");
   EXPECT_EQ(problem_with("a.off", "OFF\n-1 1\n"), "line 2: expected the number of vertices, found '-1'");
@@ -101,12 +186,12 @@ TEST(Off, RefusesInWords) {
 
 TEST(Off, NamesTheLineOfABadNumber) {
   const std::string head = "OFF\n1 0 0\n";
-  EXPECT_EQ(problem_with("a.off", head + "0 0 nan\n"), "line 3: a coordinate must be finite, found 'nan'");
-  EXPECT_EQ(problem_with("a.off", head + "0 -inf 0\n"), "line 3: a coordinate must be finite, found '-inf'");
+  EXPECT_EQ(problem_with("a.off", head + "0 0 nan\n"), "holds only points without finite coordinates");
   EXPECT_EQ(problem_with("a.off", head + "0 1e999 0\n"), "line 3: '1e999' is too large for a number");
   EXPECT_EQ(problem_with("a.off", head + "0 0x10 0\n"), "line 3: expected a coordinate, found '0x10'");
   EXPECT_EQ(problem_with("a.off", head + "0 +-1 0\n"), "line 3: expected a coordinate, found '+-1'");
-  EXPECT_EQ(problem_with("a.off", head + "0 0,5 0\n"), "line 3: expected a coordinate, found '0,5'");
+  EXPECT_EQ(problem_with("a.off", head + "0 0,5 0\n"),
+            "line 3: expected a coordinate, found '0,5' (a point is the decimal mark, not a comma)");
 }
 
 TEST(Off, ChecksIndicesAndCounts) {
@@ -133,6 +218,8 @@ TEST(Off, KeepsToTheLimits) {
 }
 
 TEST(Off, SurvivesDamage) {
+  test::expect_survives_damage("a.off", "OFF 4 2\n0 0 0 1 0 0 1 1 0\n0 nan 0\n3 0 1 2\n3 2 1 0 9 9 9\n");
+  test::expect_survives_damage("a.off", binary_square("NOFF", true, kNoColour));
   test::expect_survives_damage("a.off", "COFF\n4 1 4\n0 0 0\n1 0 0 # x\r\n1 1 0 .5 .5 1\n0 1e0 0\n4 0 1 2 3 255 0 0\n");
 }
 

@@ -97,6 +97,51 @@ TEST(Pcd, ReadsEverySizeOfInteger) {
   EXPECT_EQ(read_cloud("a.pcd", header(fields, 1, "binary") + bytes).points, (std::vector<Vec3>{{255, 65535, -7}}));
 }
 
+TEST(Pcd, TakesTypesInLowerCaseAndFieldsInUpper) {
+  const std::string lower = "FIELDS x y z\nSIZE 4 4 4\nTYPE f f f\nCOUNT 1 1 1\n";
+  EXPECT_EQ(read_cloud("a.pcd", header(lower, 2, "binary") + floats({0, 0.5F, 0, 1, 2, 3})).points, kTwoPoints);
+  const std::string integers = "FIELDS x y z\nSIZE 1 2 8\nTYPE u U i\n";
+  const std::string bytes = little(std::uint8_t{255}) + little(std::uint16_t{65535}) + little(std::int64_t{-7});
+  EXPECT_EQ(read_cloud("a.pcd", header(integers, 1, "binary") + bytes).points, (std::vector<Vec3>{{255, 65535, -7}}));
+  const std::string upper = "FIELDS Z Y X Normal_X NORMAL_Y normal_z\n";
+  const PointCloud cloud = read_cloud("a.pcd", header(upper, 1, "ascii") + "3 2 1 1 0 0\n");
+  EXPECT_EQ(cloud.points, (std::vector<Vec3>{{1, 2, 3}}));
+  EXPECT_EQ(cloud.normals, (std::vector<Vec3>{{1, 0, 0}}));
+  EXPECT_EQ(read_cloud("a.pcd", header("FIELDS X x y z\n", 1, "ascii") + "9 1 2 3\n").points,
+            (std::vector<Vec3>{{1, 2, 3}}));
+}
+
+TEST(Pcd, PassesOverFieldsWithoutValues) {
+  const std::string fields = "FIELDS _ x y _ z\nSIZE 1 4 4 8 4\nTYPE U F F F F\nCOUNT 0 1 1 0 1\n";
+  EXPECT_EQ(read_cloud("a.pcd", header(fields, 2, "ascii") + "0 0.5 0\n1 2 3\n").points, kTwoPoints);
+  EXPECT_EQ(read_cloud("a.pcd", header(fields, 2, "binary") + floats({0, 0.5F, 0, 1, 2, 3})).points, kTwoPoints);
+  const std::string packed = compressed(pack_plainly(floats({0, 1, 0.5F, 2, 0, 3})), 24);
+  EXPECT_EQ(read_cloud("a.pcd", header(fields, 2, "binary_compressed") + packed).points, kTwoPoints);
+  EXPECT_EQ(problem_with("a.pcd", "FIELDS x y z\nCOUNT 1 0 1\nPOINTS 1\nDATA ascii\n1 2\n"),
+            "its points have no field 'y'");
+  EXPECT_EQ(problem_with("a.pcd", "FIELDS x y z\nCOUNT 0 0 0\nPOINTS 1\nDATA binary\n1 2\n"),
+            "line 4: the count of each field is 0");
+}
+
+TEST(Pcd, RefusesMorePointsThanAnnounced) {
+  EXPECT_EQ(problem_with("a.pcd", header(kXyz, 1, "ascii") + "0 0.5 0\n1 2 3\n"),
+            "line 13: the file goes on after the 1 points that it announces");
+  EXPECT_EQ(problem_with("a.pcd", header(kXyz, 1, "binary") + floats({0, 0.5F, 0, 1, 2, 3})),
+            "12 bytes follow the 1 points that it announces");
+  EXPECT_EQ(read_cloud("a.pcd", header(kXyz, 2, "ascii") + "0 0.5 0\n1 2 3\n\n# the end\n").points, kTwoPoints);
+  const std::string bytes = floats({0, 0.5F, 0, 1, 2, 3});
+  EXPECT_EQ(read_cloud("a.pcd", header(kXyz, 2, "binary") + bytes + std::string(4096, '\0')).points, kTwoPoints);
+  EXPECT_EQ(read_cloud("a.pcd", header(kXyz, 2, "binary") + bytes + "\r\nabc").points, kTwoPoints);
+}
+
+TEST(Pcd, RefusesARowWithAValueTooMany) {
+  EXPECT_EQ(problem_with("a.pcd", header(kXyz, 2, "ascii") + "7 0 0.5 0\n1 2 3\n"),
+            "line 13: 0 more values than a row should have, but 1 more in line 12");
+  EXPECT_EQ(problem_with("a.pcd", header(kXyz, 2, "ascii") + "0 0.5 0\n7 1 2 3\n"),
+            "line 13: 1 more values than a row should have, but 0 more in line 12");
+  EXPECT_EQ(read_cloud("a.pcd", header(kXyz, 2, "ascii") + "0 0.5 0 7\n1 2 3 7\n").points, kTwoPoints);
+}
+
 TEST(Pcd, LeavesOutWhatWasNotMeasured) {
   EXPECT_EQ(read_cloud("a.pcd", header(kXyz, 3, "ascii") + "0 0.5 0\nnan nan nan\n1 2 3\n").points, kTwoPoints);
   const std::string bytes = floats({0, 0.5F, 0, kNanFloat, 0, 0, 1, 2, 3});
@@ -129,7 +174,8 @@ TEST(Pcd, RefusesInWords) {
   EXPECT_EQ(problem_with("a.pcd", "FIELDS x\nDATA ascii\n"), "line 2: the header says neither 'POINTS' nor 'WIDTH'");
   EXPECT_EQ(problem_with("a.pcd", "FIELDS x\nSIZE 3\n"), "line 2: a field's size must be 1, 2, 4 or 8, found 3");
   EXPECT_EQ(problem_with("a.pcd", "FIELDS x\nTYPE D\n"), "line 2: a field's type must be F, I or U, found 'D'");
-  EXPECT_EQ(problem_with("a.pcd", "FIELDS x\nCOUNT 0\n"), "line 2: a field's count must be at least 1, found 0");
+  EXPECT_EQ(problem_with("a.pcd", "FIELDS x\nCOUNT 4294967296\n"),
+            "line 2: a field's count must be at most 4294967295, found 4294967296");
   EXPECT_EQ(problem_with("a.pcd", "FIELDS x y\nSIZE 4\n"),
             "line 2: expected the size of a field, but the line ends here");
   EXPECT_EQ(problem_with("a.pcd", "FIELDS x y\nPOINTS 1\nDATA ascii\n1 2\n"), "its points have no field 'z'");

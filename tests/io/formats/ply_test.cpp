@@ -127,6 +127,128 @@ TEST(Ply, TakesFacesBeforeVertices) {
                 "4 0 1 2 3\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n");
 }
 
+const std::string kStripElements =
+    "element vertex 4\n" + kXyz + "element tristrips 1\nproperty list int int vertex_indices\n";
+const std::string kCornersText = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+
+std::string strip_bytes(const std::vector<std::int32_t>& indices, auto write) {
+  std::string bytes;
+  for (const Vec3& vertex : kSquareVertices) {
+    for (const double c : vertex) {
+      bytes += write(static_cast<float>(c));
+    }
+  }
+  bytes += write(static_cast<std::int32_t>(indices.size()));
+  for (const std::int32_t index : indices) {
+    bytes += write(index);
+  }
+  return bytes;
+}
+
+std::vector<Triangle> triangles_of_strip(const std::string& list) {
+  return read_mesh("a.ply", header("ascii", kStripElements) + kCornersText + list).triangles;
+}
+
+TEST(Ply, TurnsEverySecondTriangleOfAStrip) {
+  EXPECT_EQ(triangles_of_strip("4 0 1 3 2\n"), (std::vector<Triangle>{{0, 1, 3}, {3, 1, 2}}));
+  EXPECT_EQ(triangles_of_strip("6 0 1 2 3 0 1\n"), (std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}, {2, 3, 0}, {0, 3, 1}}));
+}
+
+TEST(Ply, BeginsAStripAnewBehindMinusOne) {
+  const std::vector<Triangle> two{{0, 1, 3}, {1, 2, 3}};
+  EXPECT_EQ(triangles_of_strip("7 0 1 3 -1 1 2 3\n"), two);
+  EXPECT_EQ(triangles_of_strip("9 0 1 3 -1 -1 1 2 3 -1\n"), two);
+  EXPECT_EQ(triangles_of_strip("9 0 1 -1 0 1 3 -1 2 3\n"), (std::vector<Triangle>{{0, 1, 3}}));
+  for (const auto& [format, bytes] :
+       {std::pair("binary_little_endian", strip_bytes({0, 1, 3, -1, 1, 2, 3}, kWriteLittle)),
+        std::pair("binary_big_endian", strip_bytes({0, 1, 3, -1, 1, 2, 3}, kWriteBig))}) {
+    for (const std::string type : {"int", "uint"}) {
+      std::string elements = kStripElements;
+      elements.replace(elements.find("int int vert"), 7, "int " + type);
+      EXPECT_EQ(read_mesh("a.ply", header(format, elements) + bytes).triangles, two) << format << type;
+    }
+  }
+}
+
+TEST(Ply, DropsFlatTrianglesOfAStripButKeepsCount) {
+  EXPECT_EQ(triangles_of_strip("6 0 1 1 3 2 0\n"), (std::vector<Triangle>{{1, 3, 2}, {2, 3, 0}}));
+  EXPECT_EQ(triangles_of_strip("5 0 1 0 3 2\n"), (std::vector<Triangle>{{0, 1, 3}, {0, 3, 2}}));
+}
+
+TEST(Ply, ReadsSeveralStripsBesideFaces) {
+  const std::string elements = "element vertex 4\n" + kXyz +
+                               "element face 1\nproperty list uchar int vertex_indices\n"
+                               "element tristrips 2\nproperty list uchar char vertex_index\n";
+  EXPECT_EQ(
+      read_mesh("a.ply", header("ascii", elements) + kCornersText + "3 0 1 2\n3 0 2 3\n7 3 1 0 -1 2 1 0\n").triangles,
+      (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {3, 1, 0}, {2, 1, 0}}));
+}
+
+TEST(Ply, ChecksStrips) {
+  const std::string head = header("ascii", kStripElements) + kCornersText;
+  EXPECT_EQ(problem_with("a.ply", head + "3 0 1 4\n"), "line 14: vertex index 4 is out of range (4 vertices)");
+  EXPECT_EQ(problem_with("a.ply", head + "3 0 1 -2\n"), "line 14: vertex index -2 is out of range (4 vertices)");
+  EXPECT_EQ(problem_with("a.ply", head + "9 0 1 2\n"),
+            "line 14: a list of 9 values does not fit into the rest of the file");
+}
+
+TEST(Ply, PassesOverValuesThatEachRowHasTooMany) {
+  const std::string elements =
+      "element vertex 4\n" + kXyz + "element face 2\nproperty list uchar int vertex_indices\nproperty uchar red\n";
+  const std::string head = header("ascii", elements);
+  expect_square(head + kCornersText + "3 0 1 2 9 1 1 1\n3 0 2 3 9 1 1 1\n");
+  expect_square(head + kCornersText + "3 0 1 2 9 6 0.25 .5 1 0 1 1\n3 0 2 3 9 6 0.25 .5 1 0 1 1\n");
+  expect_square(head + "0 0 0 7\n1 0 0 7\n1 1 0 7\n0 1 0 7\n3 0 1 2 9\n3 0 2 3 9\n");
+}
+
+TEST(Ply, RefusesARowWithAValueTooMany) {
+  const std::string head = header("ascii", kSquareElements);  // 9 lines
+  EXPECT_EQ(problem_with("a.ply", head + "7 0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"),
+            "line 11: 0 more values than a row should have, but 1 more in line 10");
+  EXPECT_EQ(problem_with("a.ply", head + "0 0 0\n1 0 0\n7 1 1 0\n0 1 0\n4 0 1 2 3\n"),
+            "line 12: 1 more values than a row should have, but 0 more in line 10");
+  const std::string faces = "element vertex 4\n" + kXyz + "element face 2\nproperty list uchar int vertex_indices\n";
+  EXPECT_EQ(problem_with("a.ply", header("ascii", faces) + kCornersText + "3 0 1 2\n3 0 2 3 1\n"),
+            "line 15: 1 more values than a row should have, but 0 more in line 14");
+}
+
+TEST(Ply, TakesAnyBlankBetweenValuesWhereLinesDoNot) {
+  expect_square(header("ascii", kSquareElements) + "0 0 0 1 0 0\n1 1 0 0 1 0\n4 0 1 2 3\n");
+  expect_square(header("ascii", kSquareElements) + "0 0 0 1 0 0 1 1 0 0 1 0 4 0 1 2 3");
+  expect_square(header("ascii", kSquareElements) + "0\n0\n0\n1 0 0\n1 1 0\n0 1 0\n4 0 1\n2 3\n");
+}
+
+TEST(Ply, RefusesMoreRowsThanAnnounced) {
+  const std::string more = "the file goes on after the rows that the header announces";
+  EXPECT_EQ(problem_with("a.ply", header("ascii", kSquareElements) + kCornersText + "3 0 1 2\n3 0 2 3\n"),
+            "line 15: " + more);
+  EXPECT_EQ(problem_with("a.ply", header("ascii", "element vertex 2\n" + kXyz) + kCornersText), "line 10: " + more);
+  std::string none = kSquareElements;
+  none.replace(none.find("face 1"), 6, "face 0");
+  EXPECT_EQ(problem_with("a.ply", header("ascii", none) + kSquareText), "line 14: " + more);
+  const std::string bytes = square_bytes(kWriteLittle);
+  const std::string follow = " bytes follow the rows that the header announces";
+  EXPECT_EQ(problem_with("a.ply", header("binary_little_endian", none) + bytes), "17" + follow);
+  EXPECT_EQ(problem_with("a.ply", header("binary_little_endian", kSquareElements) + bytes + bytes.substr(48)),
+            "17" + follow);
+  EXPECT_EQ(problem_with("a.ply", header("binary_little_endian", "element vertex 2\n" + kXyz) + bytes.substr(0, 48)),
+            "24" + follow);
+}
+
+TEST(Ply, TakesWhatFilesAreFilledUpWith) {
+  const std::string padding = std::string(40, '\0') + std::string(40, ' ') + "\r\n\n\x1A";
+  expect_square(header("ascii", kSquareElements) + kSquareText + "\n \n" + padding);
+  expect_square(header("binary_little_endian", kSquareElements) + square_bytes(kWriteLittle) + padding);
+}
+
+TEST(Ply, KeepsVerticesThatAreNotFiniteOutOfTheWay) {
+  std::string elements = kSquareElements;
+  elements.replace(elements.find("vertex 4"), 8, "vertex 5");
+  const std::string head = header("ascii", elements) + "nan nan nan\n" + kCornersText;
+  expect_square(head + "4 1 2 3 4\n");
+  EXPECT_EQ(problem_with("a.ply", head + "4 1 2 3 0\n"), "line 10: a coordinate is not finite");
+}
+
 TEST(Ply, IsAPointCloudWithoutFaces) {
   const std::string elements =
       "element vertex 3\n" + kXyz + "property float nx\nproperty float ny\nproperty float nz\n";
@@ -159,8 +281,6 @@ TEST(Ply, RefusesInWords) {
             "its vertices have no property 'y'");
   EXPECT_EQ(problem_with("a.ply", header("ascii", "element vertex 1\n" + kXyz) + "nan nan nan\n"),
             "holds only points without finite coordinates");
-  EXPECT_EQ(problem_with("a.ply", header("ascii", "element tristrips 1\nproperty list int int vertex_indices\n")),
-            "holds triangle strips (tristrips); spincat reads PLY files with faces only");
 }
 
 TEST(Ply, ChecksTextNumbersAndIndices) {
@@ -188,6 +308,7 @@ TEST(Ply, ChecksBinaryCountsAndIndices) {
             "face 0: a list of 4 values does not fit into the rest of the file");
   body[53] = '\4';
   EXPECT_EQ(problem_with("a.ply", head + body), "face 0: vertex index 4 is out of range (4 vertices)");
+  body[53] = '\1';
   body.replace(12, 4, little(std::numeric_limits<float>::infinity()));
   EXPECT_EQ(problem_with("a.ply", head + body), "vertex 1: a coordinate is not finite");
   EXPECT_EQ(problem_with("a.ply", header("binary_little_endian", "element vertex 18446744073709551\n" + kXyz) + body),
@@ -232,6 +353,9 @@ TEST(Ply, KeepsToTheLimits) {
 TEST(Ply, SurvivesDamage) {
   test::expect_survives_damage("a.ply", header("ascii", "comment x\n" + kSquareElements) + kSquareText);
   test::expect_survives_damage("a.ply", header("binary_little_endian", kSquareElements) + square_bytes(kWriteLittle));
+  test::expect_survives_damage("a.ply", header("ascii", kStripElements) + kCornersText + "7 0 1 3 -1 1 2 3\n");
+  test::expect_survives_damage(
+      "a.ply", header("binary_big_endian", kStripElements) + strip_bytes({0, 1, 3, -1, 1, 2, 3}, kWriteBig));
   test::expect_survives_damage("a.ply", header("binary_big_endian", kSquareElements) + square_bytes(kWriteBig));
 }
 

@@ -63,6 +63,51 @@ TEST(Stl, TakesEveryLineEndAndUpperCase) {
   expect_square("  solid # a name, not a comment\n" + kFirstFacet + kSecondFacet + "endsolid\n");
 }
 
+TEST(Stl, TakesEndsInTwoWords) {
+  std::string text = "solid a\n" + kFirstFacet + kSecondFacet + "endsolid a\n";
+  for (const std::string part : {"loop", "facet", "solid"}) {
+    std::string parted = text;
+    for (std::size_t at = 0; (at = parted.find("end" + part, at)) != std::string::npos; ++at) {
+      parted.insert(at + 3, " ");
+    }
+    ASSERT_NE(parted, text);
+    expect_square(parted);
+  }
+  expect_square("SOLID a\n" + kFirstFacet + kSecondFacet + "End  Solid a\n");
+}
+
+TEST(Stl, PassesOverNotesBehindSolid) {
+  expect_square("solid a\n; written by a converter\nunits: mm\n\n" + kFirstFacet + kSecondFacet + "endsolid a\n");
+  expect_square("solid a\n" + kFirstFacet + "endsolid\nsolid b\n# note\n" + kSecondFacet + "endsolid\n");
+  expect_square("solid\n" + std::string(300, '-') + "\n" + kFirstFacet + kSecondFacet + "endsolid\n");
+  EXPECT_EQ(problem_with("a.stl", "solid a\n" + kFirstFacet + "; note\n" + kSecondFacet + "endsolid\n"),
+            "line 9: expected 'facet', 'outer loop' or 'endsolid', found ';'");
+}
+
+TEST(Stl, RefusesFacetsThatAreNoTriangles) {
+  const std::string begin = "solid\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n";
+  const std::string end = "endloop\nendfacet\nendsolid\n";
+  EXPECT_EQ(problem_with("a.stl", begin + end), "line 6: only 2 corners in a facet, expected 3");
+  EXPECT_EQ(problem_with("a.stl", begin + "vertex 1 1 0\nvertex 0 1 0\n" + end),
+            "line 7: more than 3 corners in a facet, expected 3");
+}
+
+// Where the program that wrote it never came to fill in the count.
+TEST(Stl, ReadsBytesWithoutACount) {
+  std::string bytes = binary("x");
+  bytes.replace(80, 4, little(std::uint32_t{0}));
+  expect_square(bytes);
+  EXPECT_EQ(problem_with("a.stl", bytes + "x"), "101 bytes follow the 0 triangles that it announces");
+}
+
+TEST(Stl, RefusesMoreTrianglesThanAnnounced) {
+  std::string bytes = binary("x");
+  bytes.replace(80, 4, little(std::uint32_t{1}));
+  EXPECT_EQ(problem_with("a.stl", bytes), "50 bytes follow the 1 triangles that it announces");
+  expect_square(binary("x") + std::string(49, 'x'));
+  expect_square(binary("x") + std::string(500, '\0') + std::string(500, ' '));
+}
+
 TEST(Stl, ReadsBytes) {
   expect_square(binary("made by a test"));
   expect_square(binary("made by a test") + "trailing bytes");
@@ -96,7 +141,7 @@ TEST(Stl, MergesManyVertices) {
 
 TEST(Stl, RefusesInWords) {
   EXPECT_EQ(problem_with("a.stl", ""), "is empty");
-  EXPECT_EQ(problem_with("a.stl", "OFF\n1 0 0"), "is cut off: the header alone needs 84 bytes, it has 9");
+  EXPECT_EQ(problem_with("a.stl", "OFF\nx 0 0"), "is cut off: the header alone needs 84 bytes, it has 9");
   EXPECT_EQ(problem_with("a.stl", "solid\nendsolid\n"), "holds neither a face nor a point");
   EXPECT_EQ(problem_with("a.stl", binary("x").substr(0, 150)), "is cut off: 2 triangles need 184 bytes, it has 150");
   EXPECT_EQ(problem_with("a.stl", "solid\n" + kFirstFacet), "line 9: the file ends before 'endsolid'");

@@ -42,6 +42,86 @@ TEST(Xyz, SkipsALoneCount) {
   EXPECT_EQ(problem_with("a.pts", "3\n0 0 0\n1 2 3\n"), "line 4: the file ends after 2 of 3 points");
 }
 
+TEST(Xyz, JoinsScansThatEachHaveACount) {
+  expect_two_points("1\n0 0 0\n1\n1 2 3\n");
+  expect_two_points("1\n0 0 0 100 1 2 3\n\n0\n1\n1 2 3 100 1 2 3\n");
+  EXPECT_EQ(problem_with("a.pts", "1\n0 0 0\n2\n1 2 3\n"), "line 5: the file ends after 1 of 2 points");
+  EXPECT_EQ(problem_with("a.pts", "2\n0 0 0\n1\n1 2 3\n"), "line 3: expected a coordinate, but the line ends here");
+}
+
+TEST(Xyz, RefusesMorePointsThanAnnounced) {
+  EXPECT_EQ(problem_with("a.pts", "1\n0 0 0\n1 2 3\n"), "line 3: more than the 1 points that line 1 announces");
+  EXPECT_EQ(problem_with("a.pts", "# none\n0\n1 2 3\n"), "line 3: more than the 0 points that line 2 announces");
+  EXPECT_EQ(problem_with("a.pts", "1\n0 0 0\n1\n1 2 3\n4 5 6\n"),
+            "line 5: more than the 1 points that line 3 announces");
+  expect_two_points("2\n0 0 0\n1 2 3\n\n# the end\n");
+  expect_two_points(std::string("2\n0 0 0\n1 2 3\n\x1A\0\0\n", 18));
+}
+
+TEST(Xyz, TakesANameForEachColumn) {
+  expect_two_points("X Y Z R G B\n0 0 0 1 0 0\n1 2 3 0 1 0\n");  // colours of unit length
+  expect_two_points("//X,Y,Z\n0,0,0\n1,2,3\n");
+  expect_two_points("# x y z\n0 0 0\n1 2 3\n");
+  expect_two_points("\"x\";\"y\";\"z\"\n0;0;0\n1;2;3\n");
+  expect_two_points("X[m]\tY[m]\tZ[m]\n0\t0\t0\n1\t2\t3\n");
+  expect_two_points("2\nx y z\n0 0 0\n1 2 3\n");
+  expect_two_points("x y z\n2\n0 0 0\n1 2 3\n");
+  expect_two_points("x y z label\n0 0 0 wall\n1 2 3 floor\n");
+}
+
+TEST(Xyz, GoesByTheNamesOfColumnsInAnyOrder) {
+  expect_two_points("z,y,x\n0,0,0\n3,2,1\n");
+  expect_two_points("id label X Y Z\n7 wall 0 0 0\n8 floor 1 2 3\n");
+  expect_two_points("# intensity x y z\n17 0 0 0\n18 1 2 3\n");
+  expect_two_points("//R G B X Y Z\n1 0 0 0 0 0\n0 1 0 1 2 3\n");
+  const PointCloud cloud = read_cloud("a.txt", "NX,NY,NZ,r,X,Y,Z\n0,0,2,9,0,0,0\n0,1,0,9,1,2,3\n");
+  EXPECT_EQ(cloud.points, kTwoPoints);
+  EXPECT_EQ(cloud.normals, (std::vector<Vec3>{{0, 0, 2}, {0, 1, 0}}));
+  EXPECT_EQ(read_cloud("a.txt", "x y z normal_x normal_y normal_z\n0 0 0 1 0 0\n1 2 3 0 1 0\n").normals.size(), 2U);
+}
+
+TEST(Xyz, TakesNoCommentThatSpeaksOfAxesForNames) {
+  expect_two_points("# z x y: the axes of the sensor\n0 0 0\n1 2 3\n");
+  expect_two_points("# scale z y x by 2 3\n0 0 0 4 5 6\n1 2 3 4 5 6\n");
+}
+
+TEST(Xyz, RefusesRowsThatTheNamesDoNotFit) {
+  EXPECT_EQ(problem_with("a.xyz", "z y x\n0 0 0\n1 2 3 4\n"), "line 3: 4 values, but line 1 names 3 columns");
+  EXPECT_EQ(problem_with("a.xyz", "id x y z\n1 0 0 0\n1 2 3\n"), "line 3: 3 values, but line 1 names 4 columns");
+  EXPECT_EQ(problem_with("a.xyz", "east north up\n0 0 0\n"), "line 1: expected a coordinate, found 'east'");
+}
+
+TEST(Xyz, ReadsDecimalCommas) {
+  const std::vector<Vec3> points{{0.25, 0.5, -0.125}, {2, 1.5, 0.625}};
+  for (const std::string text : {"0,25 0,5 -0,125\n2,0 1,5 0,625\n", "0,25;0,5;-0,125\n2;1,5;0,625\n",
+                                 "0,25\t0,5\t-0,125\r\n2\t1,5\t6,25e-1\r\n", "2\n0,25 0,5 -0,125 17\n2 1,5 0,625 18\n",
+                                 "X Y Z\n0,25 0,5 -0,125\n2 1,5 0,625 # 1.5\n"}) {
+    EXPECT_EQ(read_cloud("a.xyz", text).points, points) << text;
+  }
+  expect_two_points("0 0 0,0\n1 2 3\n");
+  EXPECT_EQ(read_cloud("a.xyz", "0 0 0 0,6 0,8 0\n1 2 3 0 1 0\n").normals,
+            (std::vector<Vec3>{{0.6, 0.8, 0}, {0, 1, 0}}));
+}
+
+TEST(Xyz, RefusesCommasThatMayBeEither) {
+  const std::string either = "a comma may part numbers or be a decimal mark here, found ";
+  EXPECT_EQ(problem_with("a.xyz", "1,234.5 2,000.0 3,0\n"), "line 1: " + either + "'1,234.5 2,000.0 3,0'");
+  EXPECT_EQ(problem_with("a.xyz", "0 0 0\n0,5, 1,25, 2,0\n"), "line 2: " + either + "'0,5, 1,25, 2,0'");
+  EXPECT_EQ(problem_with("a.xyz", "1,2,3 4,5,6\n"), "line 1: " + either + "'1,2,3 4,5,6'");
+  EXPECT_EQ(problem_with("a.xyz", "0.5 1 2\n0 0 0,5\n"),
+            "line 2: the comma is a decimal mark in line 2 but not in line 1");
+  EXPECT_EQ(problem_with("a.xyz", "0 0 0,5\n0 0 0\n1,2,3\n"),
+            "line 3: the comma is a decimal mark in line 1 but not in line 3");
+}
+
+TEST(Xyz, KeepsCommasThatPartNumbers) {
+  expect_two_points("0,0,0,255,0,0\n1,2,3,255,1,1\n");
+  expect_two_points("0,0,0,\n1,2,3 \n");
+  expect_two_points("0, 0, 0\n1 ,2 ,3\n");
+  expect_two_points("0 0 0 255,0,0\n1 2 3 255,1,1\n");
+  expect_two_points("0.0,-0,0 # 1,5\n1.0,2.0,3\n");
+}
+
 TEST(Xyz, TakesSixColumnsOfUnitLengthAsNormals) {
   const PointCloud cloud = read_cloud("a.xyzn", "0 0 0 1 0 0\n1 2 3 0 0.6 -0.805\n");
   EXPECT_EQ(cloud.points, kTwoPoints);
@@ -87,7 +167,9 @@ TEST(Xyz, KeepsToTheLimits) {
 }
 
 TEST(Xyz, SurvivesDamage) {
-  test::expect_survives_damage("a.pts", "2\n0 0.5 0,0 0 1\n1 2e0 3; 0 1 0 # x\r\n");
+  test::expect_survives_damage("a.pts", "2\n0 0.5 0, 0 0 1\n1 2e0 3; 0 1 0 # x\r\n");
+  test::expect_survives_damage("a.pts", "//X Y Z\n1\n0 0,5 0\n1\n1 2 3\n");
+  test::expect_survives_damage("a.txt", "z,nx,ny,nz,x,y\n0,0,0,1,2,3\n");
 }
 
 }  // namespace

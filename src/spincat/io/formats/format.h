@@ -6,11 +6,13 @@
 // depend on the locale. What they build goes through ObjectBuilder, which checks the rest.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string_view>
 #include <vector>
 
 #include "spincat/geometry/object.h"
+#include "spincat/io/formats/likeness.h"
 #include "spincat/io/read_limits.h"
 
 namespace spincat::io {
@@ -22,9 +24,12 @@ struct FileContent {
 
 struct ObjectFormat {
   std::vector<std::string_view> extensions;  // in lower case, with their dot
-  // Those that say so only where the user names the file: in a folder, files called so are something else.
+  // Those that other files have, too: in a folder, a file called so is meant only where its first bytes are plainly of
+  // this format.
   std::vector<std::string_view> ambiguous_extensions = {};
   Object (*read)(const FileContent& file, const ReadLimits& limits);
+  // What the first bytes of a file say (see likeness.h), where they can say anything.
+  Likeness (*likeness)(std::string_view first, std::uint64_t file_size) = nullptr;
 };
 
 // In the order of formats.inc.

@@ -212,7 +212,7 @@ Object read_gltf(const FileContent& file, const ReadLimits& limits) {
 }  // namespace
 
 ObjectFormat gltf_format() {
-  return {.extensions = {".gltf", ".glb"}, .read = read_gltf};
+  return {.extensions = {".gltf", ".glb"}, .read = read_gltf, .likeness = likeness_of_gltf};
 }
 
 }  // namespace spincat::io

@@ -1,4 +1,6 @@
 // Wavefront OBJ: vertices and polygons; groups, materials and curves are passed over.
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
@@ -8,6 +10,7 @@
 #include "spincat/error.h"
 #include "spincat/geometry/object.h"
 #include "spincat/io/formats/format.h"
+#include "spincat/io/formats/likeness.h"
 #include "spincat/io/formats/object_builder.h"
 #include "spincat/io/read_limits.h"
 #include "spincat/io/text_cursor.h"
@@ -24,7 +27,8 @@ class ObjReader {
     while (text_.word_follows()) {
       const std::string_view keyword = text_.word();
       if (keyword == "v") {
-        object_.add_vertex(read_position());
+        const Vec3 position = read_position();
+        object_.add_vertex(position, text_.line());
       } else if (keyword == "vn") {
         object_.add_normal(read_normal());
       } else if (keyword == "f") {
@@ -43,7 +47,7 @@ class ObjReader {
   Vec3 read_position() {
     Vec3 position;
     for (double& coordinate : position) {
-      coordinate = text_.finite_number("a coordinate");
+      coordinate = text_.number("a coordinate");
     }
     return position;
   }
@@ -58,9 +62,27 @@ class ObjReader {
 
   void read_face() {
     object_.begin_face();
-    while (text_.word_on_line()) {
+    std::size_t corners = 0;
+    std::string_view first;
+    std::string_view last;
+    for (; text_.word_on_line(); ++corners) {
+      last = text_.peek();
+      first = corners == 0 ? last : first;
       object_.add_corner(read_corner());
     }
+    if (text_.bytes_left() == 0 && (corners < 3 || form_of(last) != form_of(first))) {
+      text_.fail("the file ends within a face");
+    }
+  }
+
+  // 7/1/3 has other parts than 7/ or 7//3: a bit for each slash and each number behind one.
+  static unsigned form_of(std::string_view corner) {
+    unsigned form = 1;
+    for (std::size_t at = corner.find('/'); at != std::string_view::npos; at = corner.find('/', at + 1)) {
+      const bool is_filled = at + 1 < corner.size() && corner[at + 1] != '/';
+      form = 2 * form + (is_filled ? 1 : 0);
+    }
+    return form;
   }
 
   // The vertex of a corner like 7, 7/1, 7//3, 7/1/3 or -1, which is the newest vertex.
@@ -103,7 +125,7 @@ Object read_obj(const FileContent& file, const ReadLimits& limits) {
 }  // namespace
 
 ObjectFormat obj_format() {
-  return {.extensions = {".obj"}, .read = read_obj};
+  return {.extensions = {".obj"}, .read = read_obj, .likeness = likeness_of_obj};
 }
 
 }  // namespace spincat::io

@@ -60,6 +60,14 @@ class ObjectBuilder {
     }
     mesh_.vertices.push_back(vertex);
   }
+  // The same for one that may not be finite: that is an error of a mesh where a face uses it, found at `line` (0:
+  // none), and else it is left out, as in a cloud, where it means "nothing measured here".
+  void add_vertex(const Vec3& vertex, std::size_t line) {
+    if (!vertex.allFinite()) {
+      unfinite_.push_back({static_cast<std::uint32_t>(mesh_.vertices.size()), line});
+    }
+    add_vertex(vertex);
+  }
   // Adds a vertex unless there is an equal one; its index.
   std::uint32_t add_merged_vertex(const Vec3& vertex, VertexMerger& merger) {
     const std::uint32_t index = merger.index_of(vertex, mesh_.vertices);
@@ -112,6 +120,18 @@ class ObjectBuilder {
     ++corners_;
   }
 
+  // A strip of triangles, corner by corner: each corner makes a triangle with the two before it, turned the other way
+  // round every second time. Those that use a vertex twice only turn the strip and become nothing.
+  void begin_strip() { corners_ = 0; }
+  void add_strip_corner(std::uint32_t vertex) {
+    if (corners_ >= 2 && first_ != previous_ && previous_ != vertex && first_ != vertex) {
+      corners_ % 2 == 0 ? add_triangle(first_, previous_, vertex) : add_triangle(previous_, first_, vertex);
+    }
+    first_ = previous_;
+    previous_ = vertex;
+    ++corners_;
+  }
+
   void set_sensor(const Vec3& position) { sensor_ = position; }
 
   std::size_t vertices() const { return mesh_.vertices.size(); }
@@ -135,8 +155,10 @@ class ObjectBuilder {
       if (largest_index_ >= mesh_.vertices.size()) {
         throw InputError(out_of_range(largest_index_, mesh_.vertices.size()));
       }
+      drop_unfinite_vertices();
       return std::move(mesh_);
     }
+    drop_unfinite_points();
     if (mesh_.vertices.empty()) {
       throw InputError(left_out_ ? "holds only points without finite coordinates" : "holds neither a face nor a point");
     }
@@ -147,11 +169,68 @@ class ObjectBuilder {
   }
 
  private:
+  struct Unfinite {
+    std::uint32_t vertex;
+    std::size_t line;
+  };
+
+  // Throws when a face uses one.
+  void drop_unfinite_vertices() {
+    if (unfinite_.empty()) {
+      return;
+    }
+    std::vector<std::uint32_t> dropped(mesh_.vertices.size());  // among the vertices before
+    std::size_t next = 0;
+    for (std::uint32_t i = 0; i < dropped.size(); ++i) {
+      dropped[i] = static_cast<std::uint32_t>(next);
+      next += is_unfinite(next, i) ? 1 : 0;
+    }
+    for (Triangle& triangle : mesh_.triangles) {
+      for (std::uint32_t& corner : triangle) {
+        if (is_unfinite(dropped[corner], corner)) {
+          fail_as_unfinite(unfinite_[dropped[corner]]);
+        }
+        corner -= dropped[corner];
+      }
+    }
+    std::erase_if(mesh_.vertices, [](const Vec3& vertex) { return !vertex.allFinite(); });
+  }
+
+  bool is_unfinite(std::size_t place, std::uint32_t vertex) const {
+    return place < unfinite_.size() && unfinite_[place].vertex == vertex;
+  }
+
+  [[noreturn]] static void fail_as_unfinite(const Unfinite& at) {
+    throw InputError(fmt::format("{} {}: a coordinate is not finite", at.line == 0 ? "vertex" : "line",
+                                 at.line == 0 ? at.vertex : at.line));
+  }
+
+  void drop_unfinite_points() {
+    if (unfinite_.empty()) {
+      return;
+    }
+    left_out_ = true;
+    if (normals_.size() == mesh_.vertices.size()) {
+      std::size_t next = 0;
+      std::size_t kept = 0;
+      for (std::uint32_t i = 0; i < normals_.size(); ++i) {
+        if (is_unfinite(next, i)) {
+          ++next;
+        } else {
+          normals_[kept++] = normals_[i];
+        }
+      }
+      normals_.resize(kept);
+    }
+    std::erase_if(mesh_.vertices, [](const Vec3& vertex) { return !vertex.allFinite(); });
+  }
+
   static constexpr std::size_t kMostVertices = std::numeric_limits<std::uint32_t>::max();
 
   ReadLimits limits_;
   Mesh mesh_;
   std::vector<Vec3> normals_;
+  std::vector<Unfinite> unfinite_;  // in the order of their vertices
   std::optional<Vec3> sensor_;
   bool left_out_ = false;
   std::size_t corners_ = 0;

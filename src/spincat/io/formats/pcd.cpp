@@ -15,8 +15,10 @@
 #include "spincat/geometry/object.h"
 #include "spincat/io/formats/binary.h"
 #include "spincat/io/formats/format.h"
+#include "spincat/io/formats/likeness.h"
 #include "spincat/io/formats/lzf.h"
 #include "spincat/io/formats/object_builder.h"
+#include "spincat/io/formats/rows.h"
 #include "spincat/io/organized_cloud.h"
 #include "spincat/io/read_limits.h"
 #include "spincat/io/text_cursor.h"
@@ -120,17 +122,19 @@ class HeaderReader {
 
   char read_type() {
     const std::string_view type = text_.word();
-    if (type != "F" && type != "I" && type != "U") {
-      text_.fail("a field's type must be F, I or U, found " + in_quotes(type));
+    for (const char known : {'F', 'I', 'U'}) {
+      if (same_word(type, {&known, 1})) {
+        return known;
+      }
     }
-    return type[0];
+    text_.fail("a field's type must be F, I or U, found " + in_quotes(type));
   }
 
   std::uint64_t read_count() {
     constexpr std::uint64_t kMost = 0xFFFF'FFFF;
     const std::uint64_t count = text_.count("the count of a field");
-    if (count == 0 || count > kMost) {
-      text_.fail(fmt::format("a field's count must be at least 1, found {}", count));
+    if (count > kMost) {
+      text_.fail(fmt::format("a field's count must be at most {}, found {}", kMost, count));
     }
     return count;
   }
@@ -152,6 +156,10 @@ class HeaderReader {
     header_.encoding = text_.word();
     if (header_.fields.empty()) {
       text_.fail("the header has no line 'FIELDS'");
+    }
+    std::erase_if(header_.fields, [](const Field& field) { return field.count == 0; });  // fields without values
+    if (header_.fields.empty()) {
+      text_.fail("the count of each field is 0");
     }
     if (!points_ && !width_) {
       text_.fail("the header says neither 'POINTS' nor 'WIDTH'");
@@ -218,8 +226,10 @@ WantedFields find_fields(const Header& header) {
   WantedFields wanted;
   std::size_t found = 0;
   for (; found < kNames.size(); ++found) {
-    const auto field = std::find_if(header.fields.begin(), header.fields.end(),
-                                    [&](const Field& f) { return f.name == kNames[found]; });
+    auto field = std::ranges::find(header.fields, kNames[found], &Field::name);
+    if (field == header.fields.end()) {
+      field = std::ranges::find_if(header.fields, [&](const Field& f) { return same_word(f.name, kNames[found]); });
+    }
     if (field == header.fields.end()) {
       break;
     }
@@ -267,6 +277,10 @@ void add_point(const std::array<double, 6>& values, std::size_t number, PointSin
   sink.add(Vec3(values[0], values[1], values[2]), number == 6 ? &normal : nullptr);
 }
 
+std::string announced(const Header& header) {
+  return fmt::format("the {} points that it announces", header.points);
+}
+
 [[noreturn]] void fail_cut_off(const Header& header, std::size_t bytes_left) {
   throw InputError(
       fmt::format("announces {} points, more than fit into the {} bytes that follow", header.points, bytes_left));
@@ -278,6 +292,7 @@ void read_text(const Header& header, TextCursor& text, PointSink& sink) {
     fail_cut_off(header, text.bytes_left());
   }
   sink.expect(header.points);
+  RowEnds ends;
   for (std::uint64_t i = 0; i < header.points; ++i, text.skip_line()) {
     if (!text.word_follows()) {
       text.fail(fmt::format("the file ends after {} of {} points", i, header.points));
@@ -293,8 +308,10 @@ void read_text(const Header& header, TextCursor& text, PointSink& sink) {
         }
       }
     }
+    ends.check(text);
     add_point(values, wanted.number, sink);
   }
+  expect_end(text, announced(header));
 }
 
 // Where the values of a field lie: those of point i begin at offset + i * stride.
@@ -359,6 +376,7 @@ void read_points(const Header& header, TextCursor& text, std::string_view bytes,
     if (header.points > body.size() / header.point_size()) {
       fail_cut_off(header, body.size());
     }
+    expect_end(body.substr(header.points * header.point_size()), header.point_size(), announced(header));
     read_values(header, body, false, sink);
   } else {
     read_compressed(header, body, limits, sink);
@@ -381,7 +399,7 @@ Object read_pcd(const FileContent& file, const ReadLimits& limits) {
 }  // namespace
 
 ObjectFormat pcd_format() {
-  return {.extensions = {".pcd"}, .read = read_pcd};
+  return {.extensions = {".pcd"}, .read = read_pcd, .likeness = likeness_of_pcd};
 }
 
 }  // namespace spincat::io

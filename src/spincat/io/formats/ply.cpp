@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,128 +17,31 @@
 #include "spincat/geometry/object.h"
 #include "spincat/io/formats/binary.h"
 #include "spincat/io/formats/format.h"
+#include "spincat/io/formats/likeness.h"
 #include "spincat/io/formats/object_builder.h"
+#include "spincat/io/formats/ply_header.h"
+#include "spincat/io/formats/rows.h"
 #include "spincat/io/read_limits.h"
 #include "spincat/io/text_cursor.h"
 
 namespace spincat::io {
 namespace {
 
-struct Property {
-  std::string name;
-  ScalarType type;                        // of a list: of its values
-  std::optional<ScalarType> length_type;  // lists only
-};
+using ply::Element;
+using ply::Encoding;
+using ply::Header;
+using ply::Property;
 
-struct Element {
-  std::string name;
-  std::uint64_t count;
-  std::vector<Property> properties;
-};
+constexpr const char* kAnnounced = "the rows that the header announces";
 
-enum class Encoding { ascii, little_endian, big_endian };
-
-struct Header {
-  Encoding encoding = Encoding::ascii;
-  std::vector<Element> elements;
-
-  const Element* find(std::string_view name) const {
-    const auto found = std::find_if(elements.begin(), elements.end(), [&](const Element& e) { return e.name == name; });
-    return found == elements.end() ? nullptr : &*found;
-  }
-};
-
-ScalarType scalar_type(TextCursor& text) {
-  struct TypeName {
-    std::string_view name, sized_name;
-    ScalarType type;
-  };
-  static constexpr std::array kTypes{
-      TypeName{"char", "int8", ScalarType::int8},        TypeName{"uchar", "uint8", ScalarType::uint8},
-      TypeName{"short", "int16", ScalarType::int16},     TypeName{"ushort", "uint16", ScalarType::uint16},
-      TypeName{"int", "int32", ScalarType::int32},       TypeName{"uint", "uint32", ScalarType::uint32},
-      TypeName{"float", "float32", ScalarType::float32}, TypeName{"double", "float64", ScalarType::float64},
-  };
-  const std::string_view word = text.word();
-  for (const TypeName& type : kTypes) {
-    if (word == type.name || word == type.sized_name) {
-      return type.type;
-    }
-  }
-  text.fail("unknown type " + in_quotes(word) + " of a property");
-}
-
-Encoding read_encoding(TextCursor& text) {
-  const std::string_view word = text.word();
-  if (word == "ascii") {
-    return Encoding::ascii;
-  }
-  if (word == "binary_little_endian") {
-    return Encoding::little_endian;
-  }
-  if (word == "binary_big_endian") {
-    return Encoding::big_endian;
-  }
-  text.fail("unknown format " + in_quotes(word) + "; expected ascii, binary_little_endian or binary_big_endian");
-}
-
-Property read_property(TextCursor& text) {
-  Property property;
-  if (text.peek() == "list") {
-    text.word();
-    property.length_type = scalar_type(text);
-  }
-  property.type = scalar_type(text);
-  property.name = text.word();
-  return property;
-}
-
-// Each is compared with all before it.
-constexpr std::size_t kMostElements = 100;
-
-// Leaves the cursor behind the line of end_header.
-Header read_header(TextCursor& text) {
-  if (text.word() != "ply") {
-    text.fail("expected the first line 'ply'");
-  }
-  Header header;
-  bool formatted = false;
-  for (text.skip_line(); text.word_follows(); text.skip_line()) {
-    const std::string_view keyword = text.word();
-    if (keyword == "format") {
-      header.encoding = read_encoding(text);
-      formatted = true;
-    } else if (keyword == "element") {
-      const std::string name(text.word());
-      if (header.find(name) != nullptr) {
-        text.fail("a second element called " + in_quotes(name));
-      }
-      if (header.elements.size() == kMostElements) {
-        text.fail(fmt::format("more than {} elements", kMostElements));
-      }
-      header.elements.push_back({name, text.count("the number of elements"), {}});
-    } else if (keyword == "property") {
-      if (header.elements.empty()) {
-        text.fail("a property before the first element");
-      }
-      header.elements.back().properties.push_back(read_property(text));
-    } else if (keyword == "end_header") {
-      if (!formatted) {
-        text.fail("the header has no line 'format'");
-      }
-      text.skip_line();
-      return header;
-    } else if (keyword != "comment" && keyword != "obj_info") {
-      text.fail("unknown word " + in_quotes(keyword) + " in the header");
-    }
-  }
-  text.fail("the file ends within the header, before 'end_header'");
-}
-
-// Where values come from: both kinds of body have next(), skip(), bytes_left(), least_size() and fail().
+// Where values come from: both kinds of body have next(), skip(), bytes_left(), least_size(), begin_element(),
+// begin_row(), end_row(), finish(), line() and fail().
+//
+// In a text each row has a line, unless there are fewer lines than rows: then any blank parts numbers.
 class TextBody {
  public:
-  explicit TextBody(TextCursor text) : text_(text) {}
+  // `rows`: of all elements.
+  TextBody(TextCursor text, std::uint64_t rows) : text_(text), has_lines_(lines_with_words(text, rows) == rows) {}
 
   double next(ScalarType) {
     text_.word_follows();
@@ -151,11 +54,22 @@ class TextBody {
   }
   std::uint64_t bytes_left() const { return text_.bytes_left() + 1; }  // the last line end may be missing
   static std::uint64_t least_size(ScalarType) { return 2; }            // a digit and a blank
+  void begin_element() { ends_ = {}; }
   void begin_row(const Element&, std::uint64_t) {}
+  void end_row() {
+    if (has_lines_) {
+      ends_.check(text_);
+      text_.skip_line();
+    }
+  }
+  void finish(std::uint64_t) { expect_end(text_, kAnnounced); }
+  std::size_t line() const { return text_.line(); }
   [[noreturn]] void fail(const std::string& problem) const { text_.fail(problem); }
 
  private:
   TextCursor text_;
+  bool has_lines_;
+  RowEnds ends_;
 };
 
 class BinaryBody {
@@ -175,10 +89,14 @@ class BinaryBody {
   }
   std::uint64_t bytes_left() const { return bytes_.size(); }
   static std::uint64_t least_size(ScalarType type) { return size_of(type); }
+  void begin_element() {}
   void begin_row(const Element& element, std::uint64_t row) {
     element_ = &element;
     row_ = row;
   }
+  void end_row() {}
+  void finish(std::uint64_t row) { expect_end(bytes_, row, kAnnounced); }
+  std::size_t line() const { return 0; }
   [[noreturn]] void fail(const std::string& problem) const {
     throw InputError(fmt::format("{} {}: {}", shown(element_->name), row_, problem));
   }
@@ -244,14 +162,11 @@ class PlyReader {
     if (vertices_ > 0) {
       check_properties(*vertex);
     }
-    is_mesh_ = face != nullptr && face->count > 0 &&
-               std::any_of(face->properties.begin(), face->properties.end(), is_corner_list);
-    if (const Element* strips = header_.find("tristrips"); strips != nullptr && strips->count > 0) {
-      throw InputError("holds triangle strips (tristrips); spincat reads PLY files with faces only");
-    }
+    is_mesh_ = has_corners(face) || has_corners(header_.find("tristrips"));
     for (const Element& element : header_.elements) {
       read_element(element);
     }
+    body_.finish(least_row_);
     return object_.finish();
   }
 
@@ -259,14 +174,29 @@ class PlyReader {
   // Rows without properties take no bytes and are passed over: vertices that are never read must not be counted on.
   static void check_properties(const Element& vertex) { static_cast<void>(VertexColumns(vertex)); }
 
+  static bool has_corners(const Element* element) {
+    return element != nullptr && element->count > 0 &&
+           std::any_of(element->properties.begin(), element->properties.end(), is_corner_list);
+  }
+
+  // A list as a polygon of three corners, for what follows the last row.
+  static std::uint64_t usual_size(const Property& property) {
+    constexpr std::uint64_t kCorners = 3;
+    return property.length_type ? Body::least_size(*property.length_type) + kCorners * Body::least_size(property.type)
+                                : Body::least_size(property.type);
+  }
+
   void read_element(const Element& element) {
     if (element.properties.empty()) {
       return;
     }
+    body_.begin_element();
     body_.begin_row(element, 0);
     std::uint64_t least_row = 0;
+    least_row_ = 0;
     for (const Property& property : element.properties) {
       least_row += Body::least_size(property.length_type.value_or(property.type));
+      least_row_ += usual_size(property);
     }
     if (element.count > body_.bytes_left() / least_row) {  // NOLINT(clang-analyzer-core.DivideZero): each has a size
       body_.fail(fmt::format("announces {} x {}, more than fit into the rest of the file", element.count,
@@ -274,7 +204,7 @@ class PlyReader {
     }
     if (element.name == "vertex") {
       read_vertices(element);
-    } else if (element.name == "face") {
+    } else if (element.name == "face" || element.name == "tristrips") {
       read_faces(element);
     } else {
       skip_rows(element);
@@ -296,15 +226,13 @@ class PlyReader {
         }
       }
       add_vertex({values[0], values[1], values[2]}, {values[3], values[4], values[5]}, columns.has_normals());
+      body_.end_row();
     }
   }
 
   void add_vertex(const Vec3& position, const Vec3& normal, bool has_normal) {
     if (is_mesh_) {
-      if (!position.allFinite()) {
-        body_.fail("a coordinate is not finite");
-      }
-      object_.add_vertex(position);
+      object_.add_vertex(position, body_.line());
     } else if (has_normal) {
       object_.add_point(position, normal);
     } else {
@@ -318,11 +246,12 @@ class PlyReader {
       body_.begin_row(element, row);
       for (const Property& property : element.properties) {
         if (is_corner_list(property)) {
-          read_face(property);
+          element.name == "face" ? read_face(property) : read_strip(property);
         } else {
           skip_property(property);
         }
       }
+      body_.end_row();
     }
   }
 
@@ -338,12 +267,30 @@ class PlyReader {
     const std::uint64_t corners = list_length(property);
     object_.begin_face();
     for (std::uint64_t i = 0; i < corners; ++i) {
-      const double index = body_.next(property.type);
-      if (!(index >= 0 && index < static_cast<double>(vertices_)) || index != std::floor(index)) {
-        body_.fail(fmt::format("vertex index {} is out of range ({} vertices)", index, vertices_));
-      }
-      object_.add_corner(static_cast<std::uint32_t>(index));
+      object_.add_corner(vertex_index(body_.next(property.type)));
     }
+  }
+
+  // Strips of triangles in one list; -1 ends each but the last. Unsigned numbers write it as the largest there is.
+  void read_strip(const Property& property) {
+    constexpr double kLargest = std::numeric_limits<std::uint32_t>::max();
+    const std::uint64_t corners = list_length(property);
+    object_.begin_strip();
+    for (std::uint64_t i = 0; i < corners; ++i) {
+      const double index = body_.next(property.type);
+      if (index == -1 || index == kLargest) {
+        object_.begin_strip();
+      } else {
+        object_.add_strip_corner(vertex_index(index));
+      }
+    }
+  }
+
+  std::uint32_t vertex_index(double index) const {
+    if (!(index >= 0 && index < static_cast<double>(vertices_)) || index != std::floor(index)) {
+      body_.fail(fmt::format("vertex index {} is out of range ({} vertices)", index, vertices_));
+    }
+    return static_cast<std::uint32_t>(index);
   }
 
   std::uint64_t list_length(const Property& property) {
@@ -371,6 +318,7 @@ class PlyReader {
       for (const Property& property : element.properties) {
         skip_property(property);
       }
+      body_.end_row();
     }
   }
 
@@ -378,14 +326,23 @@ class PlyReader {
   Body body_;
   ObjectBuilder object_;
   std::uint64_t vertices_ = 0;
+  std::uint64_t least_row_ = 0;  // bytes of a row of the last element
   bool is_mesh_ = false;
 };
 
+std::uint64_t rows_of(const Header& header) {
+  std::uint64_t rows = 0;
+  for (const Element& element : header.elements) {
+    rows += element.properties.empty() ? 0 : element.count;
+  }
+  return rows;
+}
+
 Object read_ply(const FileContent& file, const ReadLimits& limits) {
   TextCursor text(file.bytes, {.hash_comments = false});
-  const Header header = read_header(text);
+  const Header header = ply::read_header(text);
   if (header.encoding == Encoding::ascii) {
-    return PlyReader(header, TextBody(text), limits).read();
+    return PlyReader(header, TextBody(text, rows_of(header)), limits).read();
   }
   const std::string_view body = file.bytes.substr(file.bytes.size() - text.bytes_left());
   const std::endian order = header.encoding == Encoding::little_endian ? std::endian::little : std::endian::big;
@@ -395,7 +352,7 @@ Object read_ply(const FileContent& file, const ReadLimits& limits) {
 }  // namespace
 
 ObjectFormat ply_format() {
-  return {.extensions = {".ply"}, .read = read_ply};
+  return {.extensions = {".ply"}, .read = read_ply, .likeness = likeness_of_ply};
 }
 
 }  // namespace spincat::io

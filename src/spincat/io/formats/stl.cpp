@@ -1,6 +1,7 @@
 // Stereolithography: triangles that repeat their vertices, as text or as bytes.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -9,7 +10,9 @@
 #include "spincat/geometry/object.h"
 #include "spincat/io/formats/binary.h"
 #include "spincat/io/formats/format.h"
+#include "spincat/io/formats/likeness.h"
 #include "spincat/io/formats/object_builder.h"
+#include "spincat/io/formats/rows.h"
 #include "spincat/io/formats/vertex_merger.h"
 #include "spincat/io/read_limits.h"
 #include "spincat/io/text_cursor.h"
@@ -24,23 +27,16 @@ std::uint64_t binary_size(std::string_view bytes) {
   return kHeaderSize + kTriangleSize * std::uint64_t{load<std::uint32_t>(bytes.data() + kHeaderSize - 4)};
 }
 
-// The header of a binary file may begin with "solid" as well: its size settles it, then what follows the first line.
+// The header of a binary file may begin with "solid" as well: its size settles it, then what no text has.
 bool is_text(std::string_view bytes) {
   TextCursor text(bytes, {.hash_comments = false});
   text.word_follows();
   if (!same_word(text.word(), "solid")) {
     return false;
   }
-  if (bytes.size() < kHeaderSize) {
-    return true;
-  }
-  if (bytes.size() == binary_size(bytes)) {
-    return false;
-  }
-  text.skip_line();
-  text.word_follows();
-  const std::string_view second = text.peek();
-  return same_word(second, "facet") || same_word(second, "endsolid");
+  constexpr std::size_t kLooked = 512;
+  return bytes.size() < kHeaderSize ||
+         (bytes.size() != binary_size(bytes) && bytes.substr(0, kLooked).find('\0') == std::string_view::npos);
 }
 
 class TextStlReader {
@@ -50,15 +46,21 @@ class TextStlReader {
 
   Object read() {
     bool in_solid = false;
+    bool in_notes = false;  // lines between "solid" and the first facet are for people
     for (; text_.word_follows(); text_.skip_line()) {
       const std::string_view word = text_.word();
       if (same_word(word, "solid")) {
-        in_solid = true;
-      } else if (same_word(word, "endsolid")) {
-        in_solid = false;
+        in_solid = in_notes = true;
+      } else if (is_end_of("solid", word)) {
+        in_solid = in_notes = false;
+      } else if (same_word(word, "facet")) {
+        in_notes = false;
       } else if (same_word(word, "outer")) {
         read_loop();
-      } else if (!same_word(word, "facet") && !same_word(word, "endfacet")) {
+      } else if (!is_end_of("facet", word) && !in_notes) {
+        if (is_padding(word) && is_padding(text_.rest())) {
+          break;
+        }
         text_.fail("expected 'facet', 'outer loop' or 'endsolid', found " + in_quotes(word));
       }
     }
@@ -69,17 +71,33 @@ class TextStlReader {
   }
 
  private:
+  // "endloop" or "end loop"; takes the second word.
+  bool is_end_of(std::string_view part, std::string_view word) {
+    if (word.size() == 3 && same_word(word, "end") && same_word(text_.peek(), part)) {
+      text_.word();
+      return true;
+    }
+    return same_word(word.substr(0, 3), "end") && same_word(word.substr(std::min<std::size_t>(3, word.size())), part);
+  }
+
   // From behind "outer" to "endloop".
   void read_loop() {
+    constexpr int kCorners = 3;
+    int corners = 0;
     text_.skip_line();
     object_.begin_face();
-    while (text_.word_follows()) {
+    for (; text_.word_follows(); ++corners) {
       const std::string_view word = text_.word();
-      if (same_word(word, "endloop")) {
-        return;
-      }
-      if (!same_word(word, "vertex")) {
+      const bool is_end = is_end_of("loop", word);
+      if (!is_end && !same_word(word, "vertex")) {
         text_.fail("expected 'vertex' or 'endloop', found " + in_quotes(word));
+      }
+      if (is_end != (corners == kCorners)) {
+        text_.fail(
+            fmt::format("{} {} corners in a facet, expected {}", is_end ? "only" : "more than", corners, kCorners));
+      }
+      if (is_end) {
+        return;
       }
       Vec3 position;
       for (double& coordinate : position) {
@@ -103,18 +121,30 @@ Vec3 corner_at(const char* at, std::uint64_t triangle) {
   return corner;
 }
 
+// As many as the header announces, which is to be all. Some programs leave a count of 0 in the header, to be filled in
+// later.
+std::uint64_t triangles_in(std::string_view bytes) {
+  const std::uint64_t announced = load<std::uint32_t>(bytes.data() + kHeaderSize - 4);
+  const std::uint64_t follow = (bytes.size() - kHeaderSize) / kTriangleSize;
+  if (announced > follow) {
+    throw InputError(
+        fmt::format("is cut off: {} triangles need {} bytes, it has {}", announced, binary_size(bytes), bytes.size()));
+  }
+  if (announced == 0 && bytes.size() == kHeaderSize + kTriangleSize * follow) {
+    return follow;
+  }
+  expect_end(bytes.substr(binary_size(bytes)), kTriangleSize,
+             fmt::format("the {} triangles that it announces", announced));
+  return announced;
+}
+
 Object read_binary(std::string_view bytes, const ReadLimits& limits) {
   if (bytes.size() < kHeaderSize) {
     throw InputError(fmt::format("is cut off: the header alone needs {} bytes, it has {}", kHeaderSize, bytes.size()));
   }
-  if (bytes.size() < binary_size(bytes)) {
-    throw InputError(fmt::format("is cut off: {} triangles need {} bytes, it has {}",
-                                 load<std::uint32_t>(bytes.data() + kHeaderSize - 4), binary_size(bytes),
-                                 bytes.size()));
-  }
+  const std::uint64_t triangles = triangles_in(bytes);
   ObjectBuilder object(limits);
   VertexMerger merger;
-  const std::uint64_t triangles = (binary_size(bytes) - kHeaderSize) / kTriangleSize;
   object.check_triangles(triangles);
   object.reserve_triangles(triangles);
   for (std::uint64_t i = 0; i < triangles; ++i) {
@@ -134,7 +164,7 @@ Object read_stl(const FileContent& file, const ReadLimits& limits) {
 }  // namespace
 
 ObjectFormat stl_format() {
-  return {.extensions = {".stl"}, .read = read_stl};
+  return {.extensions = {".stl"}, .read = read_stl, .likeness = likeness_of_stl};
 }
 
 }  // namespace spincat::io

@@ -1,28 +1,29 @@
 // Columns of numbers, a point a line: x y z, and maybe a normal, a colour or an intensity.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "spincat/geometry/object.h"
+#include "spincat/io/formats/column_names.h"
+#include "spincat/io/formats/decimal_commas.h"
 #include "spincat/io/formats/format.h"
+#include "spincat/io/formats/likeness.h"
 #include "spincat/io/formats/object_builder.h"
+#include "spincat/io/formats/rows.h"
 #include "spincat/io/read_limits.h"
 #include "spincat/io/text_cursor.h"
 
 namespace spincat::io {
 namespace {
 
-std::size_t words_on_line(TextCursor text) {
-  std::size_t words = 0;
-  while (!text.word().empty()) {
-    ++words;
-  }
-  return words;
-}
+constexpr TextStyle kStyle = {.slash_comments = true, .commas_separate = true};
 
 // Three columns after x y z are a normal or a colour, and only the numbers tell: in a file of normals each has unit
 // length, or is zero or nan where it is not known.
@@ -46,44 +47,134 @@ class NormalColumns {
   bool seen_ = false;
 };
 
+// Sees to it that commas mean the same in all lines, and turns decimal commas into points.
+class DecimalMarks {
+ public:
+  // The line with points, where it has decimal commas; else nothing.
+  std::optional<std::string> with_points(const TextCursor& text) {
+    const std::string_view line = without_comment(text.rest_of_line());
+    const Commas commas = commas_in(line);
+    if (commas == Commas::unclear) {
+      text.fail("a comma may part numbers or be a decimal mark here, found " + in_quotes(line));
+    }
+    if (commas == Commas::decimal) {
+      comma_line_ = text.line();
+    } else if (other_line_ == 0 && (commas == Commas::separate || line.find('.') != std::string_view::npos)) {
+      other_line_ = text.line();
+    }
+    if (comma_line_ != 0 && other_line_ != 0) {
+      text.fail(fmt::format("the comma is a decimal mark in line {} but not in line {}", comma_line_, other_line_));
+    }
+    return commas == Commas::decimal ? std::optional(replaced(line)) : std::nullopt;
+  }
+
+ private:
+  static std::string_view without_comment(std::string_view line) {
+    return line.substr(0, std::min({line.find('#'), line.find("//"), line.size()}));
+  }
+  static std::string replaced(std::string_view line) {
+    std::string result(line);
+    std::ranges::replace(result, ',', '.');
+    return result;
+  }
+
+  std::size_t comma_line_ = 0;  // the last with a decimal comma
+  std::size_t other_line_ = 0;  // the first with a decimal point, or with commas that part numbers
+};
+
 class XyzReader {
  public:
   XyzReader(std::string_view bytes, const ReadLimits& limits)
-      : text_(bytes, {.slash_comments = true, .commas_separate = true}), object_(limits) {}
+      : text_(bytes, kStyle), object_(limits), names_(column_names_in_comments(bytes)) {}
 
   Object read() {
-    read_announced_count();
-    for (; text_.word_follows(); text_.skip_line(), ++rows_) {
-      read_row();
+    take_names();
+    take_count();
+    take_names();
+    for (; text_.word_follows() && !is_padding_only(); text_.skip_line()) {
+      if (!begins_scan()) {
+        read_line();
+        ++rows_;
+      }
     }
-    if (announced_ && *announced_ > rows_) {
-      text_.fail(fmt::format("the file ends after {} of {} points", rows_, *announced_));
-    }
-    if (!normals_.found()) {
+    check_complete("file ends");
+    if (!normals_.found() && !named_normals()) {
       object_.forget_normals();
     }
     return object_.finish();
   }
 
  private:
-  // A first line that is a lone number says how many points follow (.pts).
-  void read_announced_count() {
-    if (!text_.word_follows() || words_on_line(text_) != 1) {
+  bool named_normals() const { return names_ && names_->has_normals; }
+
+  // A line above all points that begins with no number and names x, y and z.
+  void take_names() {
+    if (names_ || !text_.word_follows() || is_number(text_.peek())) {
       return;
     }
-    announced_ = text_.count("the number of points or three coordinates");
-    text_.skip_line();
+    names_ = column_names(text_.rest_of_line());
+    if (names_) {
+      names_->line = text_.line();
+      text_.skip_line();
+    }
   }
 
-  void read_row() {
+  // A first line that is a lone number says how many points follow (.pts).
+  void take_count() {
+    if (text_.word_follows() && words_on_line(text_) == 1) {
+      count_line_ = text_.line();
+      announced_ = text_.count("the number of points or three coordinates");
+      text_.skip_line();
+    }
+  }
+
+  // Whether this line is the count of another scan: where one has a count, each may have one.
+  bool begins_scan() {
+    if (!announced_ || rows_ < *announced_) {
+      return false;
+    }
+    if (words_on_line(text_) != 1) {
+      text_.fail(fmt::format("more than the {} points that line {} announces", *announced_, count_line_));
+    }
+    count_line_ = text_.line();
+    announced_ = text_.count("the number of points or three coordinates");
+    rows_ = 0;
+    return true;
+  }
+
+  void check_complete(const char* what) const {
+    if (announced_ && *announced_ > rows_) {
+      text_.fail(fmt::format("the {} after {} of {} points", what, rows_, *announced_));
+    }
+  }
+
+  bool is_padding_only() const {
+    const std::string_view rest = text_.rest();
+    return (rest[0] == '\0' || rest[0] == '\x1A') && is_padding(rest);
+  }
+
+  void read_line() {
+    if (const auto line = marks_.with_points(text_)) {
+      TextCursor row(*line, kStyle, text_.line());
+      read_row(row);
+    } else {
+      read_row(text_);
+    }
+  }
+
+  void read_row(TextCursor& row) {
+    if (names_ && (names_->has_normals || !has_usual_order())) {
+      read_named_row(row);
+      return;
+    }
     Vec3 point;
     for (double& coordinate : point) {
-      coordinate = text_.number("a coordinate");
+      coordinate = row.number("a coordinate");
     }
-    if (normals_.possible() && words_on_line(text_) == 3) {
+    if (normals_.possible() && may_guess_normals() && words_on_line(row) == 3) {
       Vec3 normal;
       for (double& component : normal) {
-        component = text_.number("a component of a normal or of a colour");
+        component = row.number("a component of a normal or of a colour");
       }
       object_.add_point(point, normal);
       normals_.look_at(normal);
@@ -96,11 +187,40 @@ class XyzReader {
     }
   }
 
+  bool has_usual_order() const { return names_->places[0] == 0 && names_->places[1] == 1 && names_->places[2] == 2; }
+  // Names of three columns say nothing of those behind them.
+  bool may_guess_normals() const { return !names_ || names_->columns == 3; }
+
+  void read_named_row(TextCursor& row) {
+    constexpr std::array kWhat = {"a coordinate", "a component of a normal"};
+    const std::size_t wanted = names_->has_normals ? 6 : 3;
+    std::array<double, 6> values{};
+    std::size_t column = 0;
+    for (; row.word_on_line(); ++column) {
+      const auto last = names_->places.begin() + static_cast<std::ptrdiff_t>(wanted);
+      const auto place =
+          static_cast<std::size_t>(std::find(names_->places.begin(), last, column) - names_->places.begin());
+      if (place < wanted) {
+        values[place] = row.number(kWhat[place / 3]);
+      } else {
+        row.word();
+      }
+    }
+    if (column != names_->columns) {
+      row.fail(fmt::format("{} values, but line {} names {} columns", column, names_->line, names_->columns));
+    }
+    const Vec3 point(values[0], values[1], values[2]);
+    wanted == 6 ? object_.add_point(point, {values[3], values[4], values[5]}) : object_.add_point(point);
+  }
+
   TextCursor text_;
   ObjectBuilder object_;
   NormalColumns normals_;
-  std::optional<std::uint64_t> announced_;
-  std::uint64_t rows_ = 0;
+  DecimalMarks marks_;
+  std::optional<ColumnNames> names_;
+  std::optional<std::uint64_t> announced_;  // points of this scan
+  std::size_t count_line_ = 0;
+  std::uint64_t rows_ = 0;  // of this scan
 };
 
 Object read_xyz(const FileContent& file, const ReadLimits& limits) {
@@ -110,7 +230,10 @@ Object read_xyz(const FileContent& file, const ReadLimits& limits) {
 }  // namespace
 
 ObjectFormat xyz_format() {
-  return {.extensions = {".xyz", ".xyzn", ".pts", ".asc"}, .ambiguous_extensions = {".txt"}, .read = read_xyz};
+  return {.extensions = {".xyz", ".xyzn", ".pts", ".asc"},
+          .ambiguous_extensions = {".txt"},
+          .read = read_xyz,
+          .likeness = likeness_of_xyz};
 }
 
 }  // namespace spincat::io

@@ -81,6 +81,42 @@ TEST(CsvTable, FindsColumnsByName) {
   EXPECT_FALSE(table.next());
 }
 
+// The first row, and what stands in `column` of the next.
+std::pair<std::size_t, std::string> column_and_field(std::string_view text, std::string_view column) {
+  const test::TempDir dir;
+  CsvTable table(dir.write("t.csv", text));
+  const std::size_t place = table.column(column);
+  const auto row = table.next();
+  return {place, row ? row->fields.at(place) : "(none)"};
+}
+
+TEST(CsvTable, TakesTheSeparatorThatItsHeaderLineHas) {
+  const std::pair<std::size_t, std::string> expected{1, "x,y;z"};
+  EXPECT_EQ(column_and_field("path,category\na,\"x,y;z\"\n", "category"), expected);
+  EXPECT_EQ(column_and_field("path;category\na;x,y\n", "category").second, "x,y");
+  EXPECT_EQ(column_and_field("path\tcategory\r\na\tx,y;z\r\n", "category"), expected);
+  EXPECT_EQ(column_and_field("# a;b;c\n\npath,category\na,\"x,y;z\"\n", "category"), expected);
+  EXPECT_EQ(column_and_field("\xEF\xBB\xBF\"a,b,c,d\";category\na;x\n", "category").second, "x");
+  EXPECT_EQ(column_and_field("# it's \"quoted;;;\npath,category\na,b;c\n", "category").second, "b;c");
+}
+
+TEST(CsvTable, ReadsUtf16) {
+  std::string bytes = "\xFF\xFE";
+  for (const char c : std::string_view("path\tcategory\na\tb\n")) {
+    bytes += {c, '\0'};
+  }
+  EXPECT_EQ(column_and_field(bytes, "category"), (std::pair<std::size_t, std::string>{1, "b"}));
+}
+
+TEST(CsvTable, KnowsColumnsByAnyOfTheirNames) {
+  const test::TempDir dir;
+  CsvTable table(dir.write("t.csv", "File, Label ,file,CATEGORY\n"));
+  EXPECT_EQ(table.column({"path", "file"}), 0U);
+  EXPECT_EQ(table.column("label"), 1U);
+  EXPECT_EQ(table.column({"category", "label"}), 3U);
+  EXPECT_EQ(table.find_column({"split", "set"}), std::nullopt);
+}
+
 TEST(CsvTable, NamesWhatIsWrong) {
   const test::TempDir dir;
   const std::string file = (dir / "t.csv").string();
@@ -95,8 +131,10 @@ TEST(CsvTable, NamesWhatIsWrong) {
     });
   };
   EXPECT_EQ(error("# nothing\n"), file + ": is empty (expected a header line that names the columns)");
-  EXPECT_EQ(error("Path; x\n"),
-            file + ": the header line names no column 'path' (found: 'Path; x'; commas separate columns)");
+  EXPECT_EQ(error("Pfad; x\n"),
+            file +
+                ": the header line names no column 'path' (found: 'Pfad', ' x'; commas, semicolons or tabs separate "
+                "columns)");
   EXPECT_EQ(error("\npath,path\n"), file + ": line 2: two columns are called 'path'");
   EXPECT_EQ(error("path,a\nb,c\nd\n"), file + ": line 3: 1 field, expected 2 as in the header line");
   EXPECT_EQ(error("path,a\n,c\n"), file + ": line 2: the path is empty");

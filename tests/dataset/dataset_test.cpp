@@ -45,6 +45,40 @@ TEST_F(DatasetTest, ReadsCsv) {
                    ".: is a folder"}));
 }
 
+TEST_F(DatasetTest, ReadsTheColumnsThatListsInUseHave) {
+  dir_.write("a.off", "");
+  dir_.write("b.off", "");
+  const Lines expected{"a.off table", "b.off chair"};
+  for (const std::string_view header :
+       {"path,category", "filename,label", "file,class", "File_Path,Class", "FILE , CATEGORY"}) {
+    EXPECT_EQ(objects({dir_.write("set.csv", std::string(header) + "\na.off,table\nb.off,chair\n")}), expected)
+        << header;
+  }
+  EXPECT_EQ(objects({dir_.write("set.csv", "path;category\na.off;table\nb.off;chair\n")}), expected);
+  EXPECT_EQ(objects({dir_.write("set.tsv", "path\tcategory\na.off\ttable\nb.off\tchair\n")}), expected);
+  EXPECT_EQ(
+      objects({dir_.write("set.csv", "class,object_id,object_path,split\ntable,1,a.off,train\nchair,2,b.off,test\n")}),
+      (Lines{"a.off table train", "b.off chair test"}));
+}
+
+TEST_F(DatasetTest, TakesBackslashesForFoldersWhereAFileIsFoundSo) {
+  dir_.write("chairs/old/a.off", "");
+  dir_.write("b\\c.off", "");
+  dir_.write("b/c.off", "");
+  const fs::path csv =
+      dir_.write("set.csv", "path,category\nchairs\\old\\a.off,chair\nb\\c.off,table\nC:\\gone.off,table\n");
+  const Dataset dataset = read_dataset({csv});
+  EXPECT_EQ(object_lines(dataset, root_), (Lines{"b\\c.off table", "chairs/old/a.off chair"}));
+  EXPECT_EQ(skipped_lines(dataset, root_), Lines{"C:\\gone.off: no such file"});
+}
+
+TEST_F(DatasetTest, MeansTheTextFilesThatAListNames) {
+  dir_.write("a.txt", "0 0 0\n");
+  dir_.write("b.txt", "notes");
+  const fs::path csv = dir_.write("set.csv", "path,category\na.txt,table\nb.txt,chair\n");
+  EXPECT_EQ(objects({csv}), (Lines{"a.txt table", "b.txt chair"}));
+}
+
 TEST_F(DatasetTest, FindsCsvPathsBelowModelsOrAbsolute) {
   dir_.write("models/a.off", "");
   dir_.write("b.off", "");
@@ -143,9 +177,9 @@ TEST_F(DatasetTest, RefusesMapsThatAreWrong) {
             name("map.csv") + ": line 3: class 'a' goes to 'c' here and to 'b' above");
   EXPECT_EQ(map_error("class,category\n"), name("map.csv") + ": lists no class below its header line");
   EXPECT_EQ(map_error("class,category\na,\n"), name("map.csv") + ": line 2: the category is empty");
-  EXPECT_EQ(map_error("name,category\n"),
-            name("map.csv") +
-                ": the header line names no column 'class' (found: 'name', 'category'; commas separate columns)");
+  EXPECT_EQ(map_error("name,category\n"), name("map.csv") +
+                                              ": the header line names no column 'class' (found: 'name', 'category'; "
+                                              "commas, semicolons or tabs separate columns)");
   EXPECT_EQ(map_error("class,category\nx,y\n"), name("set") + ": no object is left; 1 skipped, the first is " +
                                                     name("map.csv") + " (no class of the data set is called 'x')");
 }

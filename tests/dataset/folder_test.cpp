@@ -30,6 +30,21 @@ TEST(FolderDataset, TakesSubFoldersAsCategories) {
   EXPECT_EQ(skipped_lines(dataset, dir.path()), Lines{});
 }
 
+TEST(FolderDataset, TakesTextFilesOfNumbersForClouds) {
+  const test::TempDir dir;
+  const std::string cloud = "0,0,0\n0,0,1\n0,1,0\n1,0,0\n1,1,1\n";
+  for (const char* name : {"chair/a.txt", "chair/deep/B.TXT", "table/c.txt", "stray.txt"}) {
+    dir.write(name, cloud);
+  }
+  dir.write("chair/notes.txt", "made by hand");
+  dir.write("chair/ids.txt", "1\n2\n3\n4\n5\n");
+  dir.write("classes.txt", "chair\ntable\n");
+  const Dataset dataset = read_dataset({dir.path()});
+  EXPECT_EQ(object_lines(dataset, dir.path()),
+            (Lines{"chair/a.txt chair", "chair/deep/B.TXT chair", "table/c.txt table"}));
+  EXPECT_EQ(skipped_lines(dataset, dir.path()), Lines{"stray.txt: lies in no category's sub-folder"});
+}
+
 TEST(FolderDataset, TakesSplitsAroundCategories) {
   const test::TempDir dir;
   for (const char* name : {"train/chair/a.off", "test/chair/b.off", "val/table/c.off", "validation/table/d.off"}) {

@@ -22,6 +22,15 @@ TEST(ObjectFiles, AreFoundInAllFoldersBelow) {
   EXPECT_TRUE(unread.empty());
 }
 
+TEST(ObjectFiles, AreTextFilesOfNumbers) {
+  const test::TempDir dir;
+  dir.write("a.txt", "0 0 0\n0 0 1\n0 1 0\n1 0 0\n1 1 1\n");
+  dir.write("list.txt", "a.txt\nb.txt\n");
+  ASSERT_EQ(::mkfifo((dir / "pipe.txt").c_str(), 0600), 0);  // opening it would wait for ever
+  std::vector<UnreadFolder> unread;
+  EXPECT_EQ(object_files_below(dir.path(), unread), Paths{dir / "a.txt"});
+}
+
 TEST(ObjectFiles, LostLinksCountButFoldersPipesDevicesAndLinksToFoldersDoNot) {
   const test::TempDir dir;
   fs::create_symlink("nowhere", dir / "lost.off");

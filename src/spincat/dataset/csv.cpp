@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "spincat/dataset/csv_reader.h"
+#include "spincat/dataset/list_columns.h"
 #include "spincat/dataset/listing.h"
 #include "spincat/dataset/words.h"
 #include "spincat/error.h"
@@ -29,9 +30,9 @@ std::string checked_split(const std::filesystem::path& file, const CsvRow& row, 
 
 Listing list_csv(const std::filesystem::path& file, const std::filesystem::path& models, const ReadLimits& limits) {
   CsvTable table(file);
-  const std::size_t path = table.column("path");
-  const std::size_t category = table.column("category");
-  const auto split = table.find_column("split");
+  const std::size_t path = path_column(table);
+  const std::size_t category = category_column(table);
+  const auto split = split_column(table);
   const std::filesystem::path folder = models.empty() ? file.parent_path() : models;
 
   ListBuilder list(file, table.file_size(), limits);
@@ -42,7 +43,8 @@ Listing list_csv(const std::filesystem::path& file, const std::filesystem::path&
     if (is_new) {
       list.add_class({name, std::nullopt});
     }
-    list.add_object({folder / table.filled(*row, path), found->second, split ? checked_split(file, *row, *split) : ""});
+    list.add_object(
+        {listed_file(folder, table.filled(*row, path)), found->second, split ? checked_split(file, *row, *split) : ""});
   }
   return list.take();
 }

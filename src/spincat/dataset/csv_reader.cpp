@@ -4,11 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "spincat/dataset/words.h"
 #include "spincat/error.h"
 #include "spincat/files/file.h"
+#include "spincat/files/paths.h"
+#include "spincat/files/text_encoding.h"
 
 namespace spincat {
 namespace {
@@ -16,9 +19,58 @@ namespace {
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::size_t kMostFields = 1'000;
 
+std::string text_of(const std::filesystem::path& file) {
+  std::string bytes = read_file(file);
+  auto text = naming_file(file, [&] { return utf8_of_utf16(bytes); });
+  return text ? *std::move(text) : std::move(bytes);
+}
+
+// The text up to the end of its first row. Comments and empty lines stand before it.
+std::string_view first_row(std::string_view text) {
+  bool quoted = false;
+  bool is_comment = false;
+  std::size_t begin = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
+  for (std::size_t at = begin; at < text.size(); ++at) {
+    const bool ends_line = (text[at] == '\n' || text[at] == '\r') && !quoted;
+    is_comment = is_comment || (at == begin && text[at] == '#');
+    quoted = quoted != (text[at] == '"' && !is_comment);
+    if (ends_line && at > begin && !is_comment) {
+      return text.substr(begin, at - begin);
+    }
+    if (ends_line) {
+      begin = at + 1;
+      is_comment = false;
+    }
+  }
+  return text.substr(begin);
+}
+
+// The most frequent outside quotes.
+char separator_of(std::string_view row) {
+  static constexpr std::string_view kSeparators = ",;\t";
+  std::array<std::size_t, kSeparators.size()> found{};
+  bool quoted = false;
+  for (const char c : row) {
+    quoted = quoted != (c == '"');
+    if (const std::size_t place = kSeparators.find(c); place < found.size() && !quoted) {
+      ++found[place];
+    }
+  }
+  return kSeparators[static_cast<std::size_t>(std::ranges::max_element(found) - found.begin())];
+}
+
+std::string plain_name(std::string_view name) {
+  const std::size_t first = name.find_first_not_of(' ');
+  std::string result(first == std::string_view::npos ? "" : name.substr(first, name.find_last_not_of(' ') + 1 - first));
+  std::ranges::transform(result, result.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return result;
+}
+
 }  // namespace
 
-CsvParser::CsvParser(std::string_view text, const std::string& file) : text_(text), file_(file) {
+CsvParser::CsvParser(std::string_view text, const std::string& file, char separator)
+    : text_(text), file_(file), separator_(separator) {
   if (text_.starts_with(kByteOrderMark)) {
     at_ = kByteOrderMark.size();
   }
@@ -66,13 +118,13 @@ CsvRow CsvParser::row() {
     if (at_end() || take_line_end()) {
       return result;
     }
-    ++at_;  // the comma
+    ++at_;  // the separator
   }
 }
 
 std::string CsvParser::plain_field() {
   const std::size_t begin = at_;
-  while (!at_end() && text_[at_] != ',' && !at_line_end()) {
+  while (!at_end() && text_[at_] != separator_ && !at_line_end()) {
     if (text_[at_] == '"') {
       fail(line_, "a quote inside a field (put quotes around the field and write \"\" for one inside)");
     }
@@ -111,7 +163,7 @@ void CsvParser::take_quoted_byte(std::string& field) {
 }
 
 void CsvParser::check_after_quote() const {
-  if (!at_end() && text_[at_] != ',' && !at_line_end()) {
+  if (!at_end() && text_[at_] != separator_ && !at_line_end()) {
     fail(line_, "text after the closing quote of a field");
   }
 }
@@ -123,7 +175,7 @@ void CsvParser::check_byte() const {
 }
 
 CsvTable::CsvTable(const std::filesystem::path& file)
-    : file_(file.string()), text_(read_file(file)), parser_(text_, file_) {
+    : file_(file.string()), text_(text_of(file)), parser_(text_, file_, separator_of(first_row(text_))) {
   std::optional<CsvRow> header = parser_.next();
   if (!header) {
     throw InputError(file_, "is empty (expected a header line that names the columns)");
@@ -137,18 +189,29 @@ CsvTable::CsvTable(const std::filesystem::path& file)
 }
 
 std::optional<std::size_t> CsvTable::find_column(std::string_view name) const {
-  const auto found = std::find(columns_.begin(), columns_.end(), name);
+  const auto found = std::ranges::find(columns_, name, plain_name);
   return found == columns_.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - columns_.begin()));
 }
 
-std::size_t CsvTable::column(std::string_view name) const {
-  if (const auto found = find_column(name)) {
+std::optional<std::size_t> CsvTable::find_column(std::initializer_list<std::string_view> names) const {
+  for (const std::string_view name : names) {
+    if (const auto found = find_column(name)) {
+      return found;
+    }
+  }
+  return std::nullopt;
+}
+
+std::size_t CsvTable::column(std::initializer_list<std::string_view> names) const {
+  if (const auto found = find_column(names)) {
     return *found;
   }
-  std::vector<std::string> names;
-  std::transform(columns_.begin(), columns_.end(), std::back_inserter(names), in_quotes);
-  throw InputError(file_, fmt::format("the header line names no column {} (found: {}; commas separate columns)",
-                                      in_quotes(name), shown(fmt::to_string(fmt::join(names, ", ")))));
+  std::vector<std::string> found;
+  std::transform(columns_.begin(), columns_.end(), std::back_inserter(found), in_quotes);
+  throw InputError(file_,
+                   fmt::format("the header line names no column {} (found: {}; commas, semicolons or tabs separate "
+                               "columns)",
+                               in_quotes(*names.begin()), shown(fmt::to_string(fmt::join(found, ", ")))));
 }
 
 std::optional<CsvRow> CsvTable::next() {

@@ -1,11 +1,13 @@
 // A small reader of CSV tables by RFC 4180.
 //
-// Beyond the RFC: a byte-order mark is passed over, lines that start with # are comments, empty lines are skipped, and
-// lines may end with LF, CRLF or CR. Spaces belong to the field that they stand in, as the RFC has it.
+// Beyond the RFC: semicolons or tabs may separate the fields (CsvTable finds out), a byte-order mark is passed over,
+// lines that start with # are comments, empty lines are skipped, and lines may end with LF, CRLF or CR. Spaces belong
+// to the field that they stand in, as the RFC has it.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,7 +23,7 @@ struct CsvRow {
 // Takes a text apart row by row. The text and the file's name, which is for messages, must outlive it.
 class CsvParser {
  public:
-  CsvParser(std::string_view text, const std::string& file);
+  CsvParser(std::string_view text, const std::string& file, char separator = ',');
 
   // The next row; nothing after the last one. Throws InputError(file, "line N: ...") for quotes that do not fit
   // together, for bytes that no text holds, and for rows of more than 1,000 fields.
@@ -42,11 +44,13 @@ class CsvParser {
 
   std::string_view text_;
   const std::string& file_;
+  char separator_;
   std::size_t at_ = 0;
   std::size_t line_ = 1;
 };
 
-// A table whose first row names its columns; every other row has as many fields. Its rows are not kept.
+// A table whose first row names its columns; every other row has as many fields. Whichever of comma, semicolon and tab
+// is most often in that row separates the fields. Text in UTF-16 is read, too. Its rows are not kept.
 class CsvTable {
  public:
   // Reads the file and its header line. Throws InputError.
@@ -56,9 +60,12 @@ class CsvTable {
 
   const std::string& file() const { return file_; }
   std::size_t file_size() const { return text_.size(); }
+  // The column of that name, upper or lower case; of several names, that of the first that is there.
   std::optional<std::size_t> find_column(std::string_view name) const;
-  // Throws InputError when there is no such column.
-  std::size_t column(std::string_view name) const;
+  std::optional<std::size_t> find_column(std::initializer_list<std::string_view> names) const;
+  // Throw InputError, which speaks of the first name, when there is no such column.
+  std::size_t column(std::string_view name) const { return column({name}); }
+  std::size_t column(std::initializer_list<std::string_view> names) const;
 
   // The next row; nothing after the last one. Throws InputError as CsvParser does, and for a row of another length.
   std::optional<CsvRow> next();

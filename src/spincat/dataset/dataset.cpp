@@ -79,7 +79,7 @@ void list_source(const fs::path& source, const fs::path& models, const ReadLimit
     if (files.empty()) {
       listings.push_back(list_folder(source));
     }
-  } else if (extension == ".csv") {
+  } else if (extension == ".csv" || extension == ".tsv") {
     listings.push_back(list_csv(source, models, limits));
   } else if (extension == ".cla") {
     listings.push_back(list_cla(source, models, limits));
@@ -103,7 +103,7 @@ std::optional<std::string> why_unusable(const fs::path& file) {
   if (!fs::is_regular_file(status)) {
     return fs::is_directory(status) ? "is a folder" : "is not a regular file";
   }
-  if (!is_object_file(file)) {
+  if (!has_object_name(file)) {
     return fmt::format("objects of this format are not read (extension {})", in_quotes(file.extension().string()));
   }
   return std::nullopt;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "spincat/dataset/csv_reader.h"
+#include "spincat/dataset/list_columns.h"
 #include "spincat/error.h"
 #include "spincat/files/paths.h"
 #include "spincat/io/read_object.h"
@@ -55,10 +56,10 @@ std::vector<fs::path> read_objects(const fs::path& source, const fs::path& model
     }
   } else {
     CsvTable table(source);
-    const std::size_t path = table.column("path");
+    const std::size_t path = path_column(table);
     const fs::path folder = models.empty() ? source.parent_path() : models;
     while (const auto row = table.next()) {
-      files.push_back(folder / table.filled(*row, path));
+      files.push_back(listed_file(folder, table.filled(*row, path)));
     }
     std::ranges::sort(files);
     const auto rest = std::ranges::unique(files);

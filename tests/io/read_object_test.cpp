@@ -123,7 +123,8 @@ TEST(ReadObject, GoesByAContentThatIsPlainlyAnother) {
 TEST(ReadObject, SaysWhichFormatItTakesAContentFor) {
   EXPECT_EQ(problem_with("a.obj", kPly.substr(0, kPly.size() - 3)),
             "its content looks like PLY: line 13: a list of 3 values does not fit into the rest of the file");
-  EXPECT_EQ(problem_with("a.stl", "OFF\n1 0 0\nx 0 0 0"), "its content looks like OFF: line 3: expected a coordinate, found 'x'");
+  EXPECT_EQ(problem_with("a.stl", "OFF\n1 0 0\nx 0 0 0"),
+            "its content looks like OFF: line 3: expected a coordinate, found 'x'");
 }
 
 // Numbers alone may be an OFF file without its first line.

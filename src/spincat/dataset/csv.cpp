@@ -6,7 +6,6 @@
 #include <unordered_map>
 
 #include "spincat/dataset/csv_reader.h"
-#include "spincat/dataset/list_columns.h"
 #include "spincat/dataset/listing.h"
 #include "spincat/dataset/words.h"
 #include "spincat/error.h"

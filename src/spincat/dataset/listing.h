@@ -2,10 +2,12 @@
 // before anybody looked whether the files are there.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,6 +15,8 @@
 #include "spincat/io/read_limits.h"
 
 namespace spincat {
+
+class CsvTable;
 
 struct ListedClass {
   std::string name;
@@ -53,6 +57,16 @@ class ListBuilder {
   ReadLimits limits_;
   std::uint64_t memory_ = 0;  // what the objects take until the data set is made of them
 };
+
+// The columns of a list of objects, by the names that lists in use have for them. The first two throw InputError when
+// there is none.
+std::size_t path_column(const CsvTable& table);
+std::size_t category_column(const CsvTable& table);
+std::optional<std::size_t> split_column(const CsvTable& table);
+
+// The file that a list calls `name`, relative to a folder. Backslashes part folders where a file is found so, and none
+// of the name as it stands.
+std::filesystem::path listed_file(const std::filesystem::path& folder, std::string_view name);
 
 // A folder with a sub-folder for each category. Throws InputError when a folder cannot be read or no object is found.
 Listing list_folder(const std::filesystem::path& folder);

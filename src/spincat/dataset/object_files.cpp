@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "spincat/dataset/csv_reader.h"
-#include "spincat/dataset/list_columns.h"
+#include "spincat/dataset/listing.h"
 #include "spincat/error.h"
 #include "spincat/files/paths.h"
 #include "spincat/io/read_object.h"

@@ -68,11 +68,16 @@ TEST(Off, TakesAnyBlankBetweenNumbers) {
   expect_square("OFF\n4 2 0\n0 0 0 1 0 0\n1 1 0 0 1 0\n3 0 1 2 0.5 0.5 0.5\n3 0 2 3 1 1 1 1\n");
   expect_square("COFF 4 1 0 0 0 0 9 9 9 1 1 0 0 9 9 9 1 1 1 0 9 9 9 1 0 1 0 9 9 9 1 4 0 1 2 3");
   expect_square("STNOFF 4 1 0 0 0 0 0 0 1 .5 .5 1 0 0 0 0 1 .5 .5 1 1 0 0 0 1 .5 .5 0 1 0 0 0 1 .5 .5 4 0 1 2 3");
+  expect_square("OFF\n4 1 0\n0 0\n0 1\n0 0\n1 1\n0 0\n1 0\n4 0 1 2 3\n");
+  expect_square("OFF\n4 1 0\n0 0 0 1 0\n0 1 1 0 0\n1 0 4 0 1\n2 3\n");
+  expect_square("OFF\n4\n1\n0\n0\n0\n0\n1\n0\n0\n1\n1\n0\n0\n1\n0\n4\n0\n1\n2\n3\n");
+  EXPECT_EQ(read_cloud("a.off", "NOFF\n2 0 0\n0 0 0 1\n0 0\n1 2 3\n0 0 1").normals.size(), 2U);
   EXPECT_EQ(read_cloud("a.off", "NOFF 2 0 0 0 0 0 1 0 0 1 2 3 0 0 1").normals,
             (std::vector<Vec3>{{1, 0, 0}, {0, 0, 1}}));
 }
 
 TEST(Off, PassesOverColoursThatEachVertexHas) {
+  expect_square("OFF\n4 2 4\n0 0 0 1 1 1\n1 0 0 1 1 1\n1 1 0 1 1 1\n0 1 0 1 1 1\n3 0 1 2 3 1 1\n3 0 2 3 3 1 1\n");
   expect_square("OFF\n4 1 4\n0 0 0 255 0 0\n1 0 0 255 0 0\n1 1 0 255 0 0\n0 1 0 255 0 0\n4 0 1 2 3\n");
 }
 

@@ -2,10 +2,13 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "spincat/error.h"
 #include "spincat/geometry/object.h"
@@ -71,8 +74,43 @@ std::string announced(std::uint64_t vertices, std::uint64_t faces) {
   return fmt::format("the {} vertices and {} faces that it announces", vertices, faces);
 }
 
-// A vertex or a face has a line, with a colour and more at its end, unless there are fewer lines than that: then any
-// blank parts numbers.
+// A whole number, where the word is one.
+std::optional<std::uint64_t> whole_number(std::string_view word) {
+  std::uint64_t value = 0;
+  const auto [last, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc() && last == word.data() + word.size() ? std::optional(value) : std::nullopt;
+}
+
+// Whether nothing but so many faces follow, with any blank between their numbers and without colours.
+bool faces_flow(TextCursor text, std::uint64_t faces, std::uint64_t vertices) {
+  const auto next = [&] { return text.word_follows() ? whole_number(text.word()) : std::nullopt; };
+  for (std::uint64_t i = 0; i < faces; ++i) {
+    const auto corners = next();
+    for (std::uint64_t k = 0; corners && k < *corners; ++k) {
+      const auto index = next();
+      if (!index || *index >= vertices) {
+        return false;
+      }
+    }
+    if (!corners) {
+      return false;
+    }
+  }
+  return !text.word_follows() || is_padding(text.rest());
+}
+
+// The same for vertices of so many numbers, and then faces: these may have a line each, with a colour at its end.
+bool vertices_flow(TextCursor text, std::uint64_t vertices, std::uint64_t numbers, std::uint64_t faces) {
+  for (std::uint64_t i = 0; i < vertices * numbers; ++i) {
+    if (!text.word_follows() || !is_number(text.word())) {
+      return false;
+    }
+  }
+  return (!text.word_on_line() && lines_with_words(text, faces + 1) == faces) || faces_flow(text, faces, vertices);
+}
+
+// As a rule a vertex or a face has a line, with a colour and more at its end. But any blank may part numbers, and
+// whether it does is found out where a line first goes on behind a vertex or a face.
 class TextOffReader {
  public:
   TextOffReader(TextCursor text, const Header& header, const ReadLimits& limits)
@@ -80,13 +118,16 @@ class TextOffReader {
 
   Object read() {
     read_counts();
-    has_lines_ = lines_with_words(text_, vertices_ + faces_) == vertices_ + faces_;
-    for (std::uint64_t i = 0; i < vertices_; ++i) {
-      read_vertex();
+    if (header_.numbers_of_vertex() > 3) {
+      flow_ = vertices_flow(text_, vertices_, header_.numbers_of_vertex(), faces_);
     }
-    has_lines_ = has_lines_ || lines_with_words(text_, faces_) == faces_;
+    const TextCursor begin = text_;
+    for (std::uint64_t i = 0; i < vertices_; ++i) {
+      read_vertex(begin);
+    }
+    flow_.reset();
     for (std::uint64_t i = 0; i < faces_; ++i) {
-      read_face();
+      read_face(faces_ - i);
     }
     expect_end(text_, announced(vertices_, faces_));
     return object_.finish();
@@ -96,8 +137,12 @@ class TextOffReader {
   void read_counts() {
     text_.word_follows();
     vertices_ = text_.count("the number of vertices");
+    const std::size_t line = text_.line();
     text_.word_follows();
     faces_ = text_.count("the number of faces");
+    if (text_.line() != line && words_on_line(text_) == 0) {
+      text_.word_follows();  // each has a line, and so has the number of edges
+    }
     check_fits(vertices_, "vertices", 6);  // "0 0 0\n"
     check_fits(faces_, "faces", 2);        // "0\n"
     object_.expect_vertices(vertices_);
@@ -114,43 +159,54 @@ class TextOffReader {
     }
   }
 
-  void read_vertex() {
+  // `begin`: of the first.
+  void read_vertex(const TextCursor& begin) {
     Vec3 vertex;
     for (double& coordinate : vertex) {
       text_.word_follows();
       coordinate = text_.number("a coordinate");
     }
     object_.add_vertex(vertex, text_.line());
-    std::uint64_t numbers = 3;
-    if (header_.normals && (faces_ == 0 || !has_lines_)) {
-      Vec3 normal;
-      for (double& component : normal) {
-        component = number_on_line("a component of a normal");
-      }
-      numbers += 3;
-      if (faces_ == 0) {
-        object_.add_normal(normal);
-      }
+    std::uint64_t read = 3;
+    if (header_.normals && (faces_ == 0 || flow_ == true)) {
+      add_normal();
+      read += 3;
     }
-    if (has_lines_) {
-      if (!header_.colours && !header_.texture) {  // a colour may have three numbers or four
-        ends_.check(text_);
-      }
-      text_.skip_line();
+    if (!flow_ && text_.word_on_line()) {
+      flow_ = vertices_flow(begin, vertices_, header_.numbers_of_vertex(), faces_);
     }
-    for (; !has_lines_ && numbers < header_.numbers_of_vertex(); ++numbers) {
-      number_on_line("a number of a colour");
+    if (flow_ == true) {
+      for (; read < header_.numbers_of_vertex(); ++read) {
+        next_number("a number of a colour");
+      }
+      return;
+    }
+    if (!header_.colours && !header_.texture) {  // a colour may have three numbers or four
+      ends_.check(text_);
+    }
+    text_.skip_line();
+  }
+
+  void add_normal() {
+    Vec3 normal;
+    for (double& component : normal) {
+      component = next_number("a component of a normal");
+    }
+    if (faces_ == 0) {
+      object_.add_normal(normal);
     }
   }
 
-  double number_on_line(const char* what) {
-    if (!has_lines_) {
+  double next_number(const char* what) {
+    if (flow_ == true) {
       text_.word_follows();
     }
     return text_.number(what);
   }
 
-  void read_face() {
+  // `left`: the faces from this one on.
+  void read_face(std::uint64_t left) {
+    const TextCursor begin = text_;
     text_.word_follows();
     const std::uint64_t corners = text_.count("a number of corners");
     object_.begin_face();
@@ -162,7 +218,10 @@ class TextOffReader {
       }
       object_.add_corner(static_cast<std::uint32_t>(index));
     }
-    if (has_lines_) {
+    if (!flow_ && text_.word_on_line()) {
+      flow_ = faces_flow(begin, left, vertices_);
+    }
+    if (flow_ != true) {
       text_.skip_line();  // a colour
     }
   }
@@ -172,7 +231,7 @@ class TextOffReader {
   ObjectBuilder object_;
   std::uint64_t vertices_ = 0;
   std::uint64_t faces_ = 0;
-  bool has_lines_ = true;
+  std::optional<bool> flow_;  // of the vertices, then of the faces: whether they flow from line to line, once known
   RowEnds ends_;
 };
 

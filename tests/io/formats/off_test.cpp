@@ -96,6 +96,8 @@ TEST(Off, RefusesMoreRowsThanAnnounced) {
             "line 7: the file goes on after the 4 vertices and 0 faces that it announces");
   EXPECT_EQ(problem_with("a.off", "OFF\n3 1 0\n" + vertices + "3 0 1 2\n"),
             "line 7: the file goes on after the 3 vertices and 1 faces that it announces");
+  EXPECT_EQ(problem_with("a.off", "OFF\n4 2 0\n" + vertices + "3 1 2\n3 0 1 2\n3 0 2 3\n"),
+            "line 8: the face that begins in line 7 ends within this line");
   expect_square("OFF\n4 1 99\n" + kSquareBody + "\n\n# 3 0 1 2\n");  // a wrong number of edges
   expect_square("OFF\n4 1 0\n" + kSquareBody + std::string("\x1A\0 \0", 4));
 }

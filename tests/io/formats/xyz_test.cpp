@@ -58,6 +58,16 @@ TEST(Xyz, RefusesMorePointsThanAnnounced) {
   expect_two_points(std::string("2\n0 0 0\n1 2 3\n\x1A\0\0\n", 18));
 }
 
+TEST(Xyz, RefusesARowWithAValueTooManyOrTooFew) {
+  EXPECT_EQ(problem_with("a.xyz", "0 0 0\n7 1 2 3\n"), "line 2: one value more than in line 1");
+  EXPECT_EQ(problem_with("a.xyz", "7 0 0 0\n1 2 3\n"), "line 2: one value less than in line 1");
+  EXPECT_EQ(problem_with("a.pts", "2\n0 0 0 9 1 1 1\n1 2 9 1 1 1\n"), "line 3: one value less than in line 2");
+  EXPECT_EQ(problem_with("a.txt", "0,0,0,9,1\n\n7,1,2,3,9,1 # x\n"), "line 3: one value more than in line 1");
+  EXPECT_EQ(problem_with("a.txt", "0,5 0 0\n7 1,5 2 3\n"), "line 2: one value more than in line 1");
+  expect_two_points("0 0 0 hard scape\n1 2 3 tree\n");
+  expect_two_points("0,0,0,,9\n1,2,3,8,9 # 7,7\n");
+}
+
 TEST(Xyz, TakesANameForEachColumn) {
   expect_two_points("X Y Z R G B\n0 0 0 1 0 0\n1 2 3 0 1 0\n");  // colours of unit length
   expect_two_points("//X,Y,Z\n0,0,0\n1,2,3\n");

@@ -208,6 +208,7 @@ class TextOffReader {
   void read_face(std::uint64_t left) {
     const TextCursor begin = text_;
     text_.word_follows();
+    const std::size_t line = text_.line();
     const std::uint64_t corners = text_.count("a number of corners");
     object_.begin_face();
     for (std::uint64_t i = 0; i < corners; ++i) {
@@ -221,9 +222,13 @@ class TextOffReader {
     if (!flow_ && text_.word_on_line()) {
       flow_ = faces_flow(begin, left, vertices_);
     }
-    if (flow_ != true) {
-      text_.skip_line();  // a colour
+    if (flow_ == true) {
+      return;
     }
+    if (text_.line() != line && text_.word_on_line()) {  // a vertex too many, most likely, read on into the first face
+      text_.fail(fmt::format("the face that begins in line {} ends within this line", line));
+    }
+    text_.skip_line();  // a colour
   }
 
   TextCursor text_;

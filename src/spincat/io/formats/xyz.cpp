@@ -25,6 +25,10 @@ namespace {
 
 constexpr TextStyle kStyle = {.slash_comments = true, .commas_separate = true};
 
+std::string_view without_comment(std::string_view line) {
+  return line.substr(0, std::min({line.find('#'), line.find("//"), line.size()}));
+}
+
 // Three columns after x y z are a normal or a colour, and only the numbers tell: in a file of normals each has unit
 // length, or is zero or nan where it is not known.
 class NormalColumns {
@@ -69,9 +73,6 @@ class DecimalMarks {
   }
 
  private:
-  static std::string_view without_comment(std::string_view line) {
-    return line.substr(0, std::min({line.find('#'), line.find("//"), line.size()}));
-  }
   static std::string replaced(std::string_view line) {
     std::string result(line);
     std::ranges::replace(result, ',', '.');
@@ -80,6 +81,48 @@ class DecimalMarks {
 
   std::size_t comma_line_ = 0;  // the last with a decimal comma
   std::size_t other_line_ = 0;  // the first with a decimal point, or with commas that part numbers
+};
+
+// Sees to it that no row has a value more or less than the first has: one too many, or one that is missing, moves those
+// behind it to wrong columns. A whole normal or colour may be missing, and what is no number may be of several words.
+class RowWidths {
+ public:
+  // To be called behind the coordinates; how many words follow them.
+  std::size_t check(const TextCursor& row) {
+    const std::size_t words = words_on_line(row);
+    const std::string_view rest = without_comment(row.rest_of_line());
+    const auto separators =
+        static_cast<std::size_t>(std::ranges::count_if(rest, [](char c) { return c == ',' || c == ';'; }));
+    const Width width{separators > 0, separators > 0 ? separators : words};
+    if (line_ == 0) {
+      first_ = width;
+      line_ = row.line();
+    } else if (width.separated == first_.separated && width.values != first_.values) {
+      const bool is_more = width.values > first_.values;
+      if ((is_more ? width.values - first_.values : first_.values - width.values) == 1 && all_numbers(row)) {
+        row.fail(fmt::format("one value {} than in line {}", is_more ? "more" : "less", line_));
+      }
+    }
+    return words;
+  }
+
+ private:
+  struct Width {
+    bool separated = false;  // by commas or semicolons, between which there may be nothing
+    std::size_t values = 0;
+  };
+
+  static bool all_numbers(TextCursor row) {
+    while (row.word_on_line()) {
+      if (!is_number(row.word())) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  Width first_;
+  std::size_t line_ = 0;  // of the first row
 };
 
 class XyzReader {
@@ -171,7 +214,8 @@ class XyzReader {
     for (double& coordinate : point) {
       coordinate = row.number("a coordinate");
     }
-    if (normals_.possible() && may_guess_normals() && words_on_line(row) == 3) {
+    const std::size_t more = widths_.check(row);
+    if (normals_.possible() && may_guess_normals() && more == 3) {
       Vec3 normal;
       for (double& component : normal) {
         component = row.number("a component of a normal or of a colour");
@@ -217,6 +261,7 @@ class XyzReader {
   ObjectBuilder object_;
   NormalColumns normals_;
   DecimalMarks marks_;
+  RowWidths widths_;
   std::optional<ColumnNames> names_;
   std::optional<std::uint64_t> announced_;  // points of this scan
   std::size_t count_line_ = 0;

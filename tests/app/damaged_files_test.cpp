@@ -77,20 +77,14 @@ class DamagedFiles : public testing::Test {
 };
 
 const std::vector<Kind> kObjectFiles = {
-    {"a.off", "info a.off", "off/tetrahedron.off"},
-    {"a.obj", "info a.obj", "obj/quad.obj", true},
-    {"ascii.ply", "info ascii.ply", "ply/ascii.ply"},
-    {"little.ply", "info little.ply", "ply/little.ply"},
-    {"big.ply", "info big.ply", "ply/big.ply"},
-    {"text.stl", "info text.stl", "stl/text.stl"},
-    {"binary.stl", "info binary.stl", "stl/binary.stl"},
-    {"ascii.pcd", "info ascii.pcd", "pcd/ascii.pcd"},
-    {"binary.pcd", "info binary.pcd", "pcd/binary.pcd"},
-    {"packed.pcd", "info packed.pcd", "pcd/compressed.pcd"},
-    {"a.xyz", "info a.xyz", "xyz/normals.xyz", true},
-    {"a.pts", "info a.pts", "xyz/colours.pts", true},
-    {"a.gltf", "info a.gltf", "gltf/triangle.gltf"},
-    {"a.glb", "info a.glb", "gltf/triangle.glb"},
+    {"a.off", "info a.off", "off/tetrahedron.off"},          {"binary.off", "info binary.off", "off/binary.off"},
+    {"a.obj", "info a.obj", "obj/quad.obj", true},           {"ascii.ply", "info ascii.ply", "ply/ascii.ply"},
+    {"little.ply", "info little.ply", "ply/little.ply"},     {"big.ply", "info big.ply", "ply/big.ply"},
+    {"strips.ply", "info strips.ply", "ply/strips.ply"},     {"text.stl", "info text.stl", "stl/text.stl"},
+    {"binary.stl", "info binary.stl", "stl/binary.stl"},     {"ascii.pcd", "info ascii.pcd", "pcd/ascii.pcd"},
+    {"binary.pcd", "info binary.pcd", "pcd/binary.pcd"},     {"packed.pcd", "info packed.pcd", "pcd/compressed.pcd"},
+    {"a.xyz", "info a.xyz", "xyz/normals.xyz", true},        {"a.pts", "info a.pts", "xyz/colours.pts", true},
+    {"a.gltf", "info a.gltf", "gltf/triangle.gltf"},         {"a.glb", "info a.glb", "gltf/triangle.glb"},
     {"a.spincat", "info a.spincat", "model/linear.spincat"},
 };
 

@@ -136,12 +136,16 @@ TEST(Off, ReadsBytes) {
 
 TEST(Off, ChecksBytes) {
   const std::string good = binary_square("OFF", false, kNoColour);
-  EXPECT_EQ(problem_with("a.off", good.substr(0, 40)), "announces 4 vertices, more than fit into the rest of the file");
-  EXPECT_EQ(problem_with("a.off", good.substr(0, 75)), "announces 1 faces, more than fit into the rest of the file");
-  EXPECT_EQ(problem_with("a.off", good.substr(0, 90)), "announces 4 corners, more than fit into the rest of the file");
+  EXPECT_EQ(problem_with("a.off", good.substr(0, 40)),
+            "byte 23: announces 4 vertices, more than fit into the rest of the file");
+  EXPECT_EQ(problem_with("a.off", good.substr(0, 75)),
+            "byte 71: announces 1 faces, more than fit into the rest of the file");
+  EXPECT_EQ(problem_with("a.off", good.substr(0, 90)),
+            "byte 75: announces 4 corners, more than fit into the rest of the file");
   EXPECT_EQ(problem_with("a.off", good.substr(0, good.size() - 1)),
-            "expected the numbers of a colour, but the file ends here");
-  EXPECT_EQ(problem_with("a.off", "OFF BINARY\n" + big(std::int32_t{-1})), "expected the number of vertices, found -1");
+            "byte 91: expected the numbers of a colour, but the file ends here");
+  EXPECT_EQ(problem_with("a.off", "OFF BINARY\n" + big(std::int32_t{-1})),
+            "byte 11: expected the number of vertices, found -1");
   std::string bad = good;
   bad[good.size() - 5] = '\4';
   EXPECT_EQ(problem_with("a.off", bad), "face 0: vertex index 4 is out of range (4 vertices)");
@@ -185,7 +189,7 @@ TEST(Off, RefusesInWords) {
             "line 1: is a 4OFF file, whose vertices do not have three coordinates; spincat reads only those that do");
   EXPECT_EQ(problem_with("a.off", "nOFF 5\n1 0 0\n"),
             "line 1: is a nOFF file, whose vertices do not have three coordinates; spincat reads only those that do");
-  EXPECT_EQ(problem_with("a.off", "OFF BINARY\n"), "expected the number of vertices, but the file ends here");
+  EXPECT_EQ(problem_with("a.off", "OFF BINARY\n"), "byte 11: expected the number of vertices, but the file ends here");
   EXPECT_EQ(problem_with("a.off", "OFF\n0 0 0\n"), "holds neither a face nor a point");
   EXPECT_EQ(problem_with("a.off", "OFF\nx 1\n"), "line 2: expected the number of vertices, found 'x'");
   EXPECT_EQ(problem_with("a.off", "OFF\n-1 1\n"), "line 2: expected the number of vertices, found '-1'");

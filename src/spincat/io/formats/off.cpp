@@ -243,8 +243,9 @@ class TextOffReader {
 // Integers and floats of four bytes, the largest first.
 class BinaryOffReader {
  public:
-  BinaryOffReader(std::string_view bytes, const Header& header, const ReadLimits& limits)
-      : bytes_(bytes), header_(header), object_(limits) {}
+  // `begin`: of the bytes in their file.
+  BinaryOffReader(std::string_view bytes, std::size_t begin, const Header& header, const ReadLimits& limits)
+      : bytes_(bytes), end_(begin + bytes.size()), header_(header), object_(limits) {}
 
   Object read() {
     vertices_ = next_count("the number of vertices");
@@ -271,8 +272,12 @@ class BinaryOffReader {
 
   void check_fits(std::uint64_t count, std::uint64_t bytes, const char* what) const {
     if (count > bytes_.size() / bytes) {
-      throw InputError(fmt::format("announces {} {}, more than fit into the rest of the file", count, what));
+      fail(fmt::format("announces {} {}, more than fit into the rest of the file", count, what));
     }
+  }
+
+  [[noreturn]] void fail(const std::string& problem) const {
+    throw InputError(fmt::format("byte {}: {}", end_ - bytes_.size(), problem));
   }
 
   void read_vertex(std::uint64_t size) {
@@ -304,17 +309,18 @@ class BinaryOffReader {
 
   std::uint64_t next_count(const char* what) {
     if (bytes_.size() < kSize) {
-      throw InputError(fmt::format("expected {}, but the file ends here", what));
+      fail(fmt::format("expected {}, but the file ends here", what));
     }
     const auto value = load<std::int32_t>(bytes_.data(), std::endian::big);
     if (value < 0) {
-      throw InputError(fmt::format("expected {}, found {}", what, value));
+      fail(fmt::format("expected {}, found {}", what, value));
     }
     bytes_.remove_prefix(kSize);
     return static_cast<std::uint64_t>(value);
   }
 
-  std::string_view bytes_;
+  std::string_view bytes_;  // that are left
+  std::size_t end_;
   Header header_;
   ObjectBuilder object_;
   std::uint64_t vertices_ = 0;
@@ -334,7 +340,8 @@ Object read_off(const FileContent& file, const ReadLimits& limits) {
     return TextOffReader(text, header, limits).read();
   }
   text.word();
-  return BinaryOffReader(behind_line(text.rest()), header, limits).read();
+  const std::string_view body = behind_line(text.rest());
+  return BinaryOffReader(body, file.bytes.size() - body.size(), header, limits).read();
 }
 
 }  // namespace

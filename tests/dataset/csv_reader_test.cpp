@@ -97,6 +97,8 @@ TEST(CsvTable, TakesTheSeparatorThatItsHeaderLineHas) {
   EXPECT_EQ(column_and_field("path\tcategory\r\na\tx,y;z\r\n", "category"), expected);
   EXPECT_EQ(column_and_field("# a;b;c\n\npath,category\na,\"x,y;z\"\n", "category"), expected);
   EXPECT_EQ(column_and_field("\xEF\xBB\xBF\"a,b,c,d\";category\na;x\n", "category").second, "x");
+  EXPECT_EQ(column_and_field("sep=;\r\npath;category\r\na;x,y\r\n", "category").second, "x,y");
+  EXPECT_EQ(column_and_field("\xEF\xBB\xBFsep=,\npath,category\na,x;y\n", "category").second, "x;y");
   EXPECT_EQ(column_and_field("# it's \"quoted;;;\npath,category\na,b;c\n", "category").second, "b;c");
 }
 

@@ -127,6 +127,16 @@ TEST(ReadObject, SaysWhichFormatItTakesAContentFor) {
             "its content looks like OFF: line 3: expected a coordinate, found 'x'");
 }
 
+TEST(ReadObject, NamesWhatItDoesNotRead) {
+  EXPECT_EQ(problem_with("a.obj", "PK\x03\x04..."), "is a zip archive");
+  EXPECT_EQ(problem_with("a.stl", "Kaydara FBX Binary  "), "is an FBX file");
+  EXPECT_EQ(problem_with("a.off", "version https://git-lfs.github.com/spec/v1\n"),
+            "is a pointer of Git LFS; 'git lfs pull' fetches the file itself");
+  EXPECT_EQ(problem_with("a.ply", "<!DOCTYPE html><html>"), "is a web page");
+  EXPECT_EQ(problem_with("a.xyz", "<?xml version=\"1.0\"?>\n<COLLADA>"), "is an XML file");
+  EXPECT_EQ(problem_with("a.obj", "PKs\n"), "holds neither a face nor a point");
+}
+
 // Numbers alone may be an OFF file without its first line.
 TEST(ReadObject, LeavesNumbersToTheFormatThatTheNameTells) {
   const std::string numbers = "3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";

@@ -25,11 +25,22 @@ std::string text_of(const std::filesystem::path& file) {
   return text ? *std::move(text) : std::move(bytes);
 }
 
+// "sep=;" as a first line is no row: a spreadsheet says so what separates the fields. Its length without the line end;
+// 0 where there is none.
+std::size_t length_of_separator_line(std::string_view text) {
+  constexpr std::string_view kBegin = "sep=";
+  const std::size_t length = kBegin.size() + 1;
+  const bool is_there =
+      text.starts_with(kBegin) && text.size() > length && (text[length] == '\n' || text[length] == '\r');
+  return is_there ? length : 0;
+}
+
 // The text up to the end of its first row. Comments and empty lines stand before it.
 std::string_view first_row(std::string_view text) {
   bool quoted = false;
   bool is_comment = false;
   std::size_t begin = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
+  begin += length_of_separator_line(text.substr(begin));
   for (std::size_t at = begin; at < text.size(); ++at) {
     const bool ends_line = (text[at] == '\n' || text[at] == '\r') && !quoted;
     is_comment = is_comment || (at == begin && text[at] == '#');
@@ -74,6 +85,7 @@ CsvParser::CsvParser(std::string_view text, const std::string& file, char separa
   if (text_.starts_with(kByteOrderMark)) {
     at_ = kByteOrderMark.size();
   }
+  at_ += length_of_separator_line(text_.substr(at_));
 }
 
 std::optional<CsvRow> CsvParser::next() {

@@ -99,6 +99,10 @@ Object read_content(const io::ObjectFormat& called, const io::FileContent& conte
     return format.read(content, limits);
   } catch (const InputError& error) {
     if (&format == &called) {
+      const std::string_view kind = called.likeness == nullptr ? "" : io::unread_kind(content.bytes);
+      if (!kind.empty()) {
+        throw InputError(fmt::format("is {}", kind));
+      }
       throw;
     }
     throw InputError(error.file(), fmt::format("its content looks like {}: {}", name_of(format), error.problem()));

@@ -111,6 +111,13 @@ TEST(Pcd, TakesTypesInLowerCaseAndFieldsInUpper) {
             (std::vector<Vec3>{{1, 2, 3}}));
 }
 
+TEST(Pcd, TakesItsWordsInEitherCase) {
+  EXPECT_EQ(
+      read_cloud("a.pcd", "version 0.7\nfields x y z\nsize 4 4 4\ntype f f f\npoints 2\ndata ASCII\n0 0.5 0\n1 2 3\n")
+          .points,
+      kTwoPoints);
+}
+
 TEST(Pcd, PassesOverFieldsWithoutValues) {
   const std::string fields = "FIELDS _ x y _ z\nSIZE 1 4 4 8 4\nTYPE U F F F F\nCOUNT 0 1 1 0 1\n";
   EXPECT_EQ(read_cloud("a.pcd", header(fields, 2, "ascii") + "0 0.5 0\n1 2 3\n").points, kTwoPoints);

@@ -94,6 +94,13 @@ TEST(Ply, ReadsBinaryNumbersOfEverySize) {
   EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
 }
 
+TEST(Ply, TakesNamesOfCoordinatesInEitherCase) {
+  expect_square(header("ascii",
+                       "element vertex 4\nproperty float X\nproperty float Y\nproperty float Z\nelement face 1\n"
+                       "property list uchar int vertex_indices\n") +
+                kSquareText);
+}
+
 TEST(Ply, PassesOverWhatItDoesNotKnow) {
   const std::string elements =
       "element camera 1\nproperty float fov\nproperty list int short samples\n"

@@ -74,6 +74,8 @@ TEST(Xyz, TakesANameForEachColumn) {
   expect_two_points("# x y z\n0 0 0\n1 2 3\n");
   expect_two_points("\"x\";\"y\";\"z\"\n0;0;0\n1;2;3\n");
   expect_two_points("X[m]\tY[m]\tZ[m]\n0\t0\t0\n1\t2\t3\n");
+  expect_two_points("x (m) y (m) z (m)\n0 0 0\n1 2 3\n");
+  expect_two_points("\"r\",\"Points:0\",\"Points:1\",\"Points:2\"\n9,0,0,0\n9,1,2,3\n");
   expect_two_points("2\nx y z\n0 0 0\n1 2 3\n");
   expect_two_points("x y z\n2\n0 0 0\n1 2 3\n");
   expect_two_points("x y z label\n0 0 0 wall\n1 2 3 floor\n");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "spincat/io/text_cursor.h"
@@ -29,18 +30,25 @@ std::vector<std::string> names_of(std::string_view line) {
   TextCursor text(line, {.hash_comments = false, .commas_separate = true});
   std::vector<std::string> names;
   while (text.word_on_line() && names.size() < kMostColumns) {
-    names.push_back(plain_name(text.word()));
+    if (std::string name = plain_name(text.word()); !name.empty()) {  // empty: a unit, as in "x (m)"
+      names.push_back(std::move(name));
+    }
   }
   return names;
 }
 
 // The number of a name among x, y, z, nx, ny, nz; 6 for others.
 std::size_t role_of(std::string_view name) {
-  static constexpr std::array kNames = {"x"sv,        "y"sv,       "z"sv,        "nx"sv,
-                                        "ny"sv,       "nz"sv,      "normal_x"sv, "normal_y"sv,
-                                        "normal_z"sv, "normalx"sv, "normaly"sv,  "normalz"sv};
-  const auto place = static_cast<std::size_t>(std::ranges::find(kNames, name) - kNames.begin());
-  return place < 6 || place == kNames.size() ? std::min<std::size_t>(place, 6) : 3 + place % 3;
+  static constexpr std::array kPoint = {"x"sv, "y"sv, "z"sv, "points:0"sv, "points:1"sv, "points:2"sv};
+  static constexpr std::array kNormal = {"nx"sv,       "ny"sv,        "nz"sv,        "normal_x"sv,
+                                         "normal_y"sv, "normal_z"sv,  "normalx"sv,   "normaly"sv,
+                                         "normalz"sv,  "normals:0"sv, "normals:1"sv, "normals:2"sv};
+  const auto point = static_cast<std::size_t>(std::ranges::find(kPoint, name) - kPoint.begin());
+  const auto normal = static_cast<std::size_t>(std::ranges::find(kNormal, name) - kNormal.begin());
+  if (point < kPoint.size()) {
+    return point % 3;
+  }
+  return normal < kNormal.size() ? 3 + normal % 3 : 6;
 }
 
 bool is_in_use(std::string_view name) {

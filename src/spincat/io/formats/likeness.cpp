@@ -151,4 +151,31 @@ Likeness likeness_of_xyz(std::string_view first, std::uint64_t file_size) {
   return rows < kLeastRows ? Likeness::possible : Likeness::plain;
 }
 
+std::string_view unread_kind(std::string_view first) {
+  struct Kind {
+    std::string_view begin, name;
+  };
+  static constexpr std::array kKinds = {
+      Kind{"PK\x03\x04", "a zip archive"},
+      Kind{"\x1F\x8B", "a file packed by gzip"},
+      Kind{"BZh", "a file packed by bzip2"},
+      Kind{"\xFD\x37zXZ", "a file packed by xz"},
+      Kind{"7z\xBC\xAF", "a 7-Zip archive"},
+      Kind{"Kaydara FBX", "an FBX file"},
+      Kind{"; FBX", "an FBX file"},
+      Kind{"BLENDER", "a Blender file"},
+      Kind{"#VRML", "a VRML file"},
+      Kind{"ISO-10303-21", "a STEP file"},
+      Kind{"\x89PNG", "a PNG picture"},
+      Kind{"\xFF\xD8\xFF", "a JPEG picture"},
+      Kind{"version https://git-lfs", "a pointer of Git LFS; 'git lfs pull' fetches the file itself"},
+      Kind{"<!DOCTYPE html", "a web page"},
+      Kind{"<html", "a web page"},
+      Kind{"<?xml", "an XML file"},
+  };
+  const auto* const found =
+      std::ranges::find_if(kKinds, [&](const Kind& kind) { return first.starts_with(kind.begin); });
+  return found == kKinds.end() ? std::string_view() : found->name;
+}
+
 }  // namespace spincat::io

@@ -24,4 +24,7 @@ Likeness likeness_of_gltf(std::string_view first, std::uint64_t file_size);
 // and there are five rows: notes may have a line of numbers, or the four of a matrix.
 Likeness likeness_of_xyz(std::string_view first, std::uint64_t file_size);
 
+// What a file is that begins like none of these: "a zip archive"; empty where that cannot be said.
+std::string_view unread_kind(std::string_view first);
+
 }  // namespace spincat::io

@@ -65,7 +65,7 @@ class HeaderReader {
   Header read() {
     for (; text_.word_follows(); text_.skip_line()) {
       const std::string_view keyword = text_.word();
-      if (keyword == "DATA") {
+      if (same_word(keyword, "DATA")) {
         return finish();
       }
       read_line(keyword);
@@ -75,31 +75,31 @@ class HeaderReader {
 
  private:
   void read_line(std::string_view keyword) {
-    if (keyword == "FIELDS" || keyword == "COLUMNS") {
+    if (same_word(keyword, "FIELDS") || same_word(keyword, "COLUMNS")) {
       while (text_.word_on_line()) {
         add_field(text_.word());
       }
-    } else if (keyword == "SIZE") {
+    } else if (same_word(keyword, "SIZE")) {
       for (Field& field : header_.fields) {
         field.size = read_size();
       }
-    } else if (keyword == "TYPE") {
+    } else if (same_word(keyword, "TYPE")) {
       for (Field& field : header_.fields) {
         field.type = read_type();
       }
-    } else if (keyword == "COUNT") {
+    } else if (same_word(keyword, "COUNT")) {
       for (Field& field : header_.fields) {
         field.count = read_count();
       }
-    } else if (keyword == "WIDTH") {
+    } else if (same_word(keyword, "WIDTH")) {
       width_ = text_.count("the width");
-    } else if (keyword == "HEIGHT") {
+    } else if (same_word(keyword, "HEIGHT")) {
       height_ = text_.count("the height");
-    } else if (keyword == "POINTS") {
+    } else if (same_word(keyword, "POINTS")) {
       points_ = text_.count("the number of points");
-    } else if (keyword == "VIEWPOINT") {
+    } else if (same_word(keyword, "VIEWPOINT")) {
       header_.sensor = read_viewpoint();
-    } else if (keyword != "VERSION") {
+    } else if (!same_word(keyword, "VERSION")) {
       text_.fail("unknown word " + in_quotes(keyword) + " in the header");
     }
   }
@@ -174,10 +174,14 @@ class HeaderReader {
       }
       points_ = area;
     }
-    if (header_.encoding != "ascii" && header_.encoding != "binary" && header_.encoding != "binary_compressed") {
+    static constexpr std::array<std::string_view, 3> kEncodings = {"ascii", "binary", "binary_compressed"};
+    const auto* const encoding =
+        std::ranges::find_if(kEncodings, [&](std::string_view known) { return same_word(known, header_.encoding); });
+    if (encoding == kEncodings.end()) {
       text_.fail("unknown data format " + in_quotes(header_.encoding) +
                  "; expected ascii, binary or binary_compressed");
     }
+    header_.encoding = *encoding;
     header_.points = *points_;
     header_.width = width_.value_or(0);
     header_.height = height_.value_or(1);

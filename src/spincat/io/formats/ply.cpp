@@ -119,7 +119,8 @@ class VertexColumns {
     static constexpr std::array<std::string_view, 6> kNames{"x", "y", "z", "nx", "ny", "nz"};
     std::array<bool, 6> found{};
     for (const Property& property : element.properties) {
-      const auto* name = std::find(kNames.begin(), kNames.end(), property.name);
+      const auto* name =
+          std::ranges::find_if(kNames, [&](std::string_view known) { return same_word(known, property.name); });
       const auto column = static_cast<std::size_t>(name - kNames.begin());
       const bool wanted = column < kNames.size() && !property.length_type && !found[column];
       if (wanted) {

@@ -10,12 +10,15 @@ namespace {
 
 std::vector<InputFile> files_below(const fs::path& folder) {
   std::vector<InputFile> files;
-  std::vector<UnreadFolder> unread;
-  for (const fs::path& file : object_files_below(folder, unread)) {
+  const ObjectFiles found = object_files_below(folder);
+  for (const fs::path& file : found.files) {
     files.push_back({file, {}});
   }
-  for (const auto& [where, error] : unread) {
+  for (const auto& [where, error] : found.unread_folders) {
     files.push_back({where, "cannot be read: " + error.message()});
+  }
+  if (!found.unread_files.empty()) {
+    files.push_back({folder, "holds " + found.unread_files.text()});
   }
   if (files.empty()) {
     files.push_back({folder, "holds no object files"});

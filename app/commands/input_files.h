@@ -13,8 +13,8 @@ struct InputFile {
   std::string problem;
 };
 
-// Files as they are; folders stand for all object files below them, sorted. Folders that cannot be read, and those
-// where there is no object, are told by their problem.
+// Files as they are; folders stand for all object files below them, sorted. Folders that cannot be read, those
+// where there is no object and those that hold objects in formats that are not read are told by their problem.
 std::vector<InputFile> input_files(const std::vector<std::filesystem::path>& arguments);
 
 }  // namespace spincat::app

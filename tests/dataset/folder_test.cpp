@@ -76,6 +76,24 @@ TEST(FolderDataset, TellsWhatItPassedOver) {
                    "train/stray.obj: lies in no category's sub-folder", "chair/lost.off: no such file"}));
 }
 
+TEST(FolderDataset, CountsObjectsInFormatsThatAreNotRead) {
+  const test::TempDir dir;
+  for (const char* name : {"chair/a.off", "table/b.off", "chair/c.step", "table/deep/d.step", "e.fbx"}) {
+    dir.write(name, "");
+  }
+  EXPECT_EQ(skipped_lines(read_dataset({dir.path()}), dir.path()),
+            Lines{".: holds 3 files in formats that spincat does not read: .step 2, .fbx 1"});
+}
+
+TEST(FolderDataset, TellsAFolderOfOtherFormatsFromAnEmptyOne) {
+  const test::TempDir dir;
+  dir.write("chair/a.step", "");
+  EXPECT_NE(input_error([&] { read_dataset({dir.path()}); })
+                .find("; 1 file in a format that spincat does not read: "
+                      ".step 1)"),
+            std::string::npos);
+}
+
 TEST(FolderDataset, NeedsTwoCategories) {
   const test::TempDir dir;
   const std::string name = dir.path().string();

@@ -17,9 +17,20 @@ TEST(ObjectFiles, AreFoundInAllFoldersBelow) {
   for (const char* name : {"b.off", "deep/er/a.OBJ", "notes.txt", "deep/c.ply"}) {
     dir.write(name, "");
   }
-  std::vector<UnreadFolder> unread;
-  EXPECT_EQ(object_files_below(dir.path(), unread), (Paths{dir / "b.off", dir / "deep/c.ply", dir / "deep/er/a.OBJ"}));
-  EXPECT_TRUE(unread.empty());
+  const ObjectFiles found = object_files_below(dir.path());
+  EXPECT_EQ(found.files, (Paths{dir / "b.off", dir / "deep/c.ply", dir / "deep/er/a.OBJ"}));
+  EXPECT_TRUE(found.unread_folders.empty());
+  EXPECT_TRUE(found.unread_files.empty());
+}
+
+TEST(ObjectFiles, ThoseInFormatsThatAreNotReadAreCounted) {
+  const test::TempDir dir;
+  for (const char* name : {"a.off", "a.step", "deep/b.STEP", "c.stp", "d.blend", "notes.md", "wood.jpg"}) {
+    dir.write(name, "");
+  }
+  const ObjectFiles found = object_files_below(dir.path());
+  EXPECT_EQ(found.files, Paths{dir / "a.off"});
+  EXPECT_EQ(found.unread_files.text(), "4 files in formats that spincat does not read: .step 2, .blend 1, .stp 1");
 }
 
 TEST(ObjectFiles, AreTextFilesOfNumbers) {
@@ -27,8 +38,7 @@ TEST(ObjectFiles, AreTextFilesOfNumbers) {
   dir.write("a.txt", "0 0 0\n0 0 1\n0 1 0\n1 0 0\n1 1 1\n");
   dir.write("list.txt", "a.txt\nb.txt\n");
   ASSERT_EQ(::mkfifo((dir / "pipe.txt").c_str(), 0600), 0);  // opening it would wait for ever
-  std::vector<UnreadFolder> unread;
-  EXPECT_EQ(object_files_below(dir.path(), unread), Paths{dir / "a.txt"});
+  EXPECT_EQ(object_files_below(dir.path()).files, Paths{dir / "a.txt"});
 }
 
 TEST(ObjectFiles, LostLinksCountButFoldersPipesDevicesAndLinksToFoldersDoNot) {
@@ -38,26 +48,25 @@ TEST(ObjectFiles, LostLinksCountButFoldersPipesDevicesAndLinksToFoldersDoNot) {
   ASSERT_EQ(::mkfifo((dir / "pipe.off").c_str(), 0600), 0);  // reading it would wait for ever
   fs::create_symlink("/dev/zero", dir / "endless.off");
   fs::create_symlink(dir.path(), dir / "circle.off");
-  std::vector<UnreadFolder> unread;
-  EXPECT_EQ(object_files_below(dir.path(), unread), Paths{dir / "lost.off"});
+  EXPECT_EQ(object_files_below(dir.path()).files, Paths{dir / "lost.off"});
 }
 
 TEST(ObjectFiles, AFolderThatCannotBeReadIsToldAndTheOthersAreFound) {
   const test::TempDir dir;
   dir.write("a.off", "");
-  std::vector<UnreadFolder> unread;
-  EXPECT_EQ(object_files_below(dir / "absent", unread), Paths{});
-  ASSERT_EQ(unread.size(), 1U);
-  EXPECT_EQ(unread[0].folder, dir / "absent");
-  EXPECT_EQ(unread[0].error, std::errc::no_such_file_or_directory);
+  const ObjectFiles absent = object_files_below(dir / "absent");
+  EXPECT_EQ(absent.files, Paths{});
+  ASSERT_EQ(absent.unread_folders.size(), 1U);
+  EXPECT_EQ(absent.unread_folders[0].folder, dir / "absent");
+  EXPECT_EQ(absent.unread_folders[0].error, std::errc::no_such_file_or_directory);
   if (::geteuid() == 0) {
     return;  // root reads every folder
   }
   dir.write("shut/b.off", "");
   ASSERT_EQ(::chmod((dir / "shut").c_str(), 0), 0);
-  unread.clear();
-  EXPECT_EQ(object_files_below(dir.path(), unread), Paths{dir / "a.off"});
-  EXPECT_EQ(unread.size(), 1U);
+  const ObjectFiles found = object_files_below(dir.path());
+  EXPECT_EQ(found.files, Paths{dir / "a.off"});
+  EXPECT_EQ(found.unread_folders.size(), 1U);
   ::chmod((dir / "shut").c_str(), 0700);
 }
 

@@ -88,6 +88,24 @@ TEST_F(Protocols, LeaveOneOutCannotTestTheOnlyObjectOfItsCategory) {
   EXPECT_EQ(found.object_counts, (std::vector<std::uint32_t>{4, 1, 4}));
   EXPECT_EQ(all_of(found.confusion[1]), 0U);
   EXPECT_EQ(all_of(found.confusion[0]) + all_of(found.confusion[2]), 8U);
+  ASSERT_EQ(found.left_out.size(), 1U);
+  EXPECT_EQ(found.left_out[0].name, "cone");
+  EXPECT_EQ(found.left_out[0].reason, "was never tested");
+}
+
+TEST_F(Protocols, SplitsThatAllCameOutAlikeAreNoCertainty) {
+  EvaluateOptions options;
+  options.splits = 4;
+  options.split_seeds = {3};
+  Evaluation found = evaluate(shapes(), tiny_settings(), options);
+  for (const Rate& rate : found.category_rates) {
+    EXPECT_LT(rate.interval.low, rate.interval.high);
+    if (rate.mean == 1.0 && rate.deviation == 0.0) {  // four objects of each
+      EXPECT_EQ(rate.interval.low, wilson_interval(4, 4).low);
+    }
+  }
+  EXPECT_LT(found.mean_class_rate.interval.low, found.mean_class_rate.interval.high);
+  EXPECT_LT(found.overall_rate.interval.low, found.overall_rate.interval.high);
 }
 
 TEST_F(Protocols, SeveralSeedsAreTheMeanOfEach) {

@@ -38,6 +38,12 @@ Json json_of(const Evaluation& e, const EvaluateOptions& options = {}) {
   return Json::parse(line);
 }
 
+TEST(EvaluationJson, ACategoryThatWasNeverTestedHasNoRate) {
+  Evaluation e = two_categories();
+  e.confusion = {{1, 2}, {0, 0}};
+  EXPECT_EQ(json_of(e)["category_rates"]["chair"].dump(), R"({"rate":null,"interval":null})");
+}
+
 TEST(EvaluationJson, HasThePromisedKeys) {
   const Json json = json_of(two_categories());
   EXPECT_EQ(json["dataset"], "furniture");

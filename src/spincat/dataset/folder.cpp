@@ -11,6 +11,7 @@
 #include "spincat/dataset/listing.h"
 #include "spincat/error.h"
 #include "spincat/io/read_object.h"
+#include "spincat/io/unread_format.h"
 
 namespace spincat {
 namespace {
@@ -80,8 +81,12 @@ class FolderLister {
       }
     }
     if (listing_.objects.empty()) {
-      const std::string found = strays == 0 ? "" : fmt::format("; objects outside such sub-folders: {}", strays);
+      std::string found = strays == 0 ? "" : fmt::format("; objects outside such sub-folders: {}", strays);
+      found += unread_.empty() ? "" : "; " + unread_.text();
       throw InputError(root_.string(), fmt::format("holds no objects ({}{})", kExpected, found));
+    }
+    if (!unread_.empty()) {
+      listing_.skipped.push_back({root_, "holds " + unread_.text()});
     }
     return std::move(listing_);
   }
@@ -104,6 +109,8 @@ class FolderLister {
     const bool is_object = is_object_file(file);
     if (is_object) {
       listing_.skipped.push_back({file, "lies in no category's sub-folder"});
+    } else {
+      unread_.look_at(file);
     }
     return is_object;
   }
@@ -131,6 +138,8 @@ class FolderLister {
         list_objects(entry.path, listed_class, may_split && is_split_name(name) ? name.string() : split, false);
       } else if (is_object_file(entry.path)) {
         listing_.objects.push_back({entry.path, listed_class, split});
+      } else {
+        unread_.look_at(entry.path);
       }
     }
   }
@@ -155,6 +164,7 @@ class FolderLister {
 
   fs::path root_;
   Listing listing_;
+  UnreadFiles unread_;
   std::unordered_map<std::string, std::uint32_t> class_of_name_;
   std::set<fs::path> entered_;
 };

@@ -1,6 +1,7 @@
 #include "spincat/dataset/object_files.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "spincat/dataset/csv_reader.h"
 #include "spincat/dataset/listing.h"
@@ -21,8 +22,8 @@ bool names_an_object(const fs::directory_entry& entry) {
 
 }  // namespace
 
-std::vector<fs::path> object_files_below(const fs::path& folder, std::vector<UnreadFolder>& unread) {
-  std::vector<fs::path> files;
+ObjectFiles object_files_below(const fs::path& folder) {
+  ObjectFiles found;
   std::vector<fs::path> folders = {folder};
   while (!folders.empty()) {
     const fs::path current = folders.back();
@@ -33,27 +34,30 @@ std::vector<fs::path> object_files_below(const fs::path& folder, std::vector<Unr
       if (it->symlink_status(ignored).type() == fs::file_type::directory) {
         folders.push_back(it->path());
       } else if (names_an_object(*it)) {
-        files.push_back(it->path());
+        found.files.push_back(it->path());
+      } else {
+        found.unread_files.look_at(it->path());
       }
     }
     if (error) {
-      unread.push_back({current, error});
+      found.unread_folders.push_back({current, error});
     }
   }
-  std::ranges::sort(files);
-  std::ranges::sort(unread, {}, &UnreadFolder::folder);
-  return files;
+  std::ranges::sort(found.files);
+  std::ranges::sort(found.unread_folders, {}, &UnreadFolder::folder);
+  return found;
 }
 
 std::vector<fs::path> read_objects(const fs::path& source, const fs::path& models) {
   std::vector<fs::path> files;
   std::error_code error;
   if (fs::is_directory(source, error)) {
-    std::vector<UnreadFolder> unread;
-    files = object_files_below(source, unread);
-    if (!unread.empty()) {
-      throw InputError(unread[0].folder.string(), "cannot be read: " + unread[0].error.message());
+    ObjectFiles found = object_files_below(source);
+    if (!found.unread_folders.empty()) {
+      const auto& [unread, reason] = found.unread_folders[0];
+      throw InputError(unread.string(), "cannot be read: " + reason.message());
     }
+    files = std::move(found.files);
   } else {
     CsvTable table(source);
     const std::size_t path = path_column(table);

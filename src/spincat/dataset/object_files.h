@@ -5,6 +5,8 @@
 #include <system_error>
 #include <vector>
 
+#include "spincat/io/unread_format.h"
+
 namespace spincat {
 
 // A folder that could not be read, and why.
@@ -13,11 +15,15 @@ struct UnreadFolder {
   std::error_code error;
 };
 
-// All object files in a folder and the folders below it, sorted. A symbolic link to nowhere counts when its name is
-// that of an object: whoever reads it says what is wrong. Folders that cannot be read are added to `unread`, and passed
-// over.
-std::vector<std::filesystem::path> object_files_below(const std::filesystem::path& folder,
-                                                      std::vector<UnreadFolder>& unread);
+// What a folder and the folders below it hold.
+struct ObjectFiles {
+  std::vector<std::filesystem::path> files;  // of objects, sorted
+  std::vector<UnreadFolder> unread_folders;  // sorted
+  UnreadFiles unread_files;                  // objects in other formats
+};
+
+// A symbolic link to nowhere counts as an object when its name is that of one: whoever reads it says what is wrong.
+ObjectFiles object_files_below(const std::filesystem::path& folder);
 
 // The objects that a source names: all object files below a folder, or the column `path` of a CSV file, whose paths are
 // relative to `models` (empty: to the CSV file's own folder). Sorted, each once; the files of a CSV need not be there.

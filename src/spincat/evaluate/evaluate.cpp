@@ -1,6 +1,7 @@
 #include "spincat/evaluate/evaluate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <utility>
@@ -126,6 +127,46 @@ Rate category_rate(std::span<const Trial> trials, std::size_t category, double t
   return rates.empty() ? Rate{} : rate_over_splits(rates, test_share);
 }
 
+// The confusion matrix as if each object had been tested once, with the same shares.
+Confusion of_distinct_objects(const Evaluation& result) {
+  Confusion confusion = result.confusion;
+  for (std::size_t c = 0; c < confusion.size(); ++c) {
+    const auto all = std::accumulate(confusion[c].begin(), confusion[c].end(), std::uint64_t{0});
+    const std::uint64_t distinct = std::min<std::uint64_t>(all, result.object_counts[c]);
+    const double share = all > 0 ? confusion[c][c] / static_cast<double>(all) : 0.0;
+    const auto right = static_cast<std::uint32_t>(std::lround(share * static_cast<double>(distinct)));
+    confusion[c].assign(confusion.size(), 0);
+    confusion[c][c] = right;
+    confusion[c][c == 0 ? confusion.size() - 1 : 0] += static_cast<std::uint32_t>(distinct) - right;
+  }
+  return confusion;
+}
+
+// Splits that all came out alike say nothing of how far their rate can be trusted; the number of objects does.
+void widen(Rate& rate, const Interval& of_objects) {
+  if (rate.interval.low == rate.interval.high) {
+    rate.interval = of_objects;
+  }
+}
+
+void widen_intervals(Evaluation& result) {
+  const Confusion distinct = of_distinct_objects(result);
+  widen(result.mean_class_rate, pooled_mean_class_rate(distinct).interval);
+  widen(result.overall_rate, pooled_overall_rate(distinct).interval);
+  for (std::size_t c = 0; c < distinct.size(); ++c) {
+    const auto all = std::accumulate(distinct[c].begin(), distinct[c].end(), std::uint64_t{0});
+    widen(result.category_rates[c], wilson_interval(distinct[c][c], all));
+  }
+}
+
+void list_untested(Evaluation& result) {
+  for (std::size_t c = 0; c < result.categories.size(); ++c) {
+    if (std::ranges::all_of(result.confusion[c], [](std::uint32_t count) { return count == 0; })) {
+      result.left_out.push_back({result.categories[c], "was never tested"});
+    }
+  }
+}
+
 void fill_rates(std::span<const Trial> trials, const EvaluateOptions& options, Evaluation& result) {
   if (result.protocol == Protocol::splits) {
     const auto each = static_cast<std::size_t>(result.splits);
@@ -138,6 +179,7 @@ void fill_rates(std::span<const Trial> trials, const EvaluateOptions& options, E
     for (std::size_t c = 0; c < result.categories.size(); ++c) {
       result.category_rates.push_back(category_rate(trials, c, options.test_share));
     }
+    widen_intervals(result);
     return;
   }
   result.mean_class_rate = pooled_mean_class_rate(result.confusion);
@@ -302,6 +344,7 @@ Evaluation judge_evaluation(const EvaluationData& data, const Settings& settings
   }
   result.tested = named_objects(data, splits, trials);
   fill_rates(trials, options, result);
+  list_untested(result);
   result.views = rates_by_views(trials, data.table.tested_rows, result.protocol == Protocol::splits);
   if (options.calibrates()) {
     result.confidence = measure_of(trials);

@@ -44,7 +44,7 @@ Rate pooled_mean_class_rate(const Confusion& confusion);
 // Mean and deviation of a rate over repeated random splits that test the share `test_share` of the objects. The splits
 // share objects, so that their values are not independent: the interval is Student's t with the variance raised by
 // test_share / (1 - test_share) (C. Nadeau and Y. Bengio, Machine Learning 52, 2003), which is a correction and no
-// proof. 0 to 1 for a single value. Precondition: values is not empty.
+// proof. 0 to 1 for a single value; without width where all values are equal. Precondition: values is not empty.
 Rate rate_over_splits(std::span<const double> values, double test_share);
 
 // The two-sided 95 % point of Student's t distribution: P(|t| <= result) = 0.95. Precondition: degrees >= 1.

@@ -1,6 +1,13 @@
 #include "spincat/io/unread_format.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "spincat/files/paths.h"
 
 namespace spincat {
 namespace {
@@ -105,6 +112,25 @@ constexpr UnreadFormat kFormats[] = {
 std::optional<UnreadFormat> unread_format(std::string_view extension) {
   const auto* found = std::ranges::find(kFormats, extension, &UnreadFormat::extension);
   return found == std::end(kFormats) ? std::nullopt : std::optional(*found);
+}
+
+void UnreadFiles::look_at(const std::filesystem::path& file) {
+  if (std::string extension = lower_extension(file); unread_format(extension)) {
+    ++counts_[std::move(extension)];
+  }
+}
+
+std::string UnreadFiles::text() const {
+  std::vector<std::pair<std::string, std::size_t>> counts(counts_.begin(), counts_.end());
+  std::ranges::stable_sort(counts, std::ranges::greater{}, &std::pair<std::string, std::size_t>::second);
+  std::size_t all = 0;
+  std::string list;
+  for (const auto& [extension, count] : counts) {
+    all += count;
+    list += fmt::format("{}{} {}", list.empty() ? "" : ", ", extension, count);
+  }
+  return fmt::format("{} {} that spincat does not read: {}", all, all == 1 ? "file in a format" : "files in formats",
+                     list);
 }
 
 std::span<const UnreadFormat> unread_formats() {

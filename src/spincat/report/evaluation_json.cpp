@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -32,7 +33,10 @@ const char* protocol_name(Protocol protocol) {
 Json category_rates(const Evaluation& e) {
   Json json = Json::object();
   for (std::size_t c = 0; c < e.category_rates.size(); ++c) {
-    json[e.categories[c]] = {{"rate", e.category_rates[c].mean}, {"interval", bounds(e.category_rates[c].interval)}};
+    const std::vector<std::uint32_t>& row = e.confusion[c];
+    const bool is_tested = std::ranges::any_of(row, [](std::uint32_t count) { return count > 0; });
+    json[e.categories[c]] = {{"rate", is_tested ? Json(e.category_rates[c].mean) : Json()},
+                             {"interval", is_tested ? bounds(e.category_rates[c].interval) : Json()}};
   }
   return json;
 }

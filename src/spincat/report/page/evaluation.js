@@ -79,11 +79,13 @@ function ratesCard() {
   const grid = el('div', { class: 'rates' + (categories.length > 30 ? ' tall' : ''), id: 'category-rates' });
   const fill = (order) => grid.replaceChildren(...order.flatMap((c) => {
     const rate = result.category_rates[categories[c]];
+    const name = el('span', { class: 'name', title: categories[c] }, nameText(categories[c]));
+    if (rate.rate === null) return [name, el('span', {}), el('span', { class: 'number', 'data-category': c }, 'not tested')];
     const [low, high] = rate.interval;
-    return [el('span', { class: 'name', title: categories[c] }, nameText(categories[c])),
+    return [name,
       el('div', { class: 'track', title: '95 % interval ' + spanText(rate.interval) }, el('div', { class: 'bar', style: { width: 100 * rate.rate + '%' } }),
         el('div', { class: 'span', style: { left: 100 * low + '%', width: 100 * (high - low) + '%' } })),
-      el('span', { class: 'number', 'data-category': c }, rowTotals[c] > 0 ? rateText(rate.rate) : 'not tested')];
+      el('span', { class: 'number', 'data-category': c }, rateText(rate.rate))];
   }));
   const given = categories.map((_, c) => c);
   const byRate = [...given].sort((a, b) => result.category_rates[categories[a]].rate - result.category_rates[categories[b]].rate || a - b);

@@ -4,11 +4,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -39,6 +42,15 @@ std::vector<std::int64_t> ranks_beside_us() {
     }
   }
   return ranks;
+}
+
+// Only its children are all ranks of this host; what it starts may be a script that starts us.
+bool is_started_by_launcher() {
+  std::ifstream file(fmt::format("/proc/{}/comm", getppid()));
+  std::string name;
+  std::getline(file, name);
+  return std::ranges::any_of(std::array{"mpirun", "mpiexec", "orte", "prte", "hydra_pmi"},
+                             [&](std::string_view launcher) { return name.starts_with(launcher); });
 }
 
 }  // namespace
@@ -90,6 +102,8 @@ class HostRanks {
     return std::ranges::any_of(seen_, [](const auto& rank) { return rank.first != getpid() && is_there(rank.first); });
   }
 
+  // Whether one was lost before anybody saw it: the launcher starts all at once.
+  bool lacks(int ranks) const { return has_launcher_ && static_cast<std::size_t>(ranks) > seen_.size(); }
   double gone_for() const { return longest_since(&Seen::last_there); }
   double stopped_for() const { return longest_since(&Seen::last_running); }
   double watched_for() const { return since(start_); }
@@ -125,6 +139,7 @@ class HostRanks {
     return longest;
   }
 
+  const bool has_launcher_ = is_started_by_launcher();
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_look_ = start_;
   std::map<std::int64_t, Seen> seen_;
@@ -172,7 +187,8 @@ std::unique_ptr<MpiWatch> watch_start(const Launch& launch, std::shared_ptr<Host
     host->look();
     // Rank 0 first: a launcher may end all others with the first that ends, and it has something to say.
     const double later = launch.number == 0 ? 0.0 : 0.5;
-    if (host->gone_for() > 1.0 + later) {
+    const bool is_missed = host->watched_for() > 2.0 + later && host->lacks(launch.on_host);
+    if (host->gone_for() > 1.0 + later || is_missed) {
       give_up_start(launch, *host, "a rank was lost");
     }
     if (host->stopped_for() > 5.0 + later || host->watched_for() > 30.0 + later) {

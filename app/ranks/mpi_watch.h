@@ -33,9 +33,9 @@ class MpiWatch {
 class HostRanks;
 std::shared_ptr<HostRanks> ranks_of_host();
 
-// While MPI starts: ends this process with a line that says so when a rank beside it has gone or stays stopped, or
-// after thirty deadlines for silence; kills the ranks that are stopped. Nothing is lost by then: the journal has what
-// an earlier run finished.
+// While MPI starts: ends this process with a line that says so when a rank beside it has gone, was never seen or stays
+// stopped, or after thirty deadlines for silence; kills the ranks that are stopped. Nothing is lost by then: the
+// journal has what an earlier run finished.
 std::unique_ptr<MpiWatch> watch_start(const Launch& launch, std::shared_ptr<HostRanks> host);
 
 struct MpiEnd {

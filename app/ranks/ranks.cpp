@@ -98,6 +98,7 @@ Launch read_launch() {
     }
     launch.processes = processes;
     launch.number = std::max(0, number_in(launcher.number));
+    launch.on_host = std::max({0, number_in("OMPI_COMM_WORLD_LOCAL_SIZE"), number_in("MPI_LOCALNRANKS")});
     launch.launcher = launcher.name;
     launch.mpi = launcher.mpi;
     // Slurm may speak the language of either MPI, and only one of them answers.

@@ -14,6 +14,7 @@ namespace spincat::app {
 struct Launch {
   int processes = 1;             // of this run
   int number = 0;                // of this process
+  int on_host = 0;               // processes of this run on this host; 0 where the launcher does not tell
   std::string launcher;          // "mpirun (Open MPI)"; empty when there is none
   std::vector<std::string> mpi;  // plug-ins to try, the likeliest first
   bool outlives_ranks = false;   // whether the launcher lets the others go on when one is lost

@@ -210,7 +210,7 @@ TEST(ModelFile, AMemberOfTheWrongTypeIsRefused) {
 
 TEST(ModelFile, HostileCategoriesAreRefused) {
   for (const Json& names : {Json::array(), Json::array({"chair"}), Json::array({"a", "b", "a"}),
-                            Json::array({"a", "b"}), Json::array({"a", "b", "c", "d"})}) {
+                            Json::array({"a", "b"}), Json::array({"a", "b", "c", "d"}), Json::array({"a", "", "b"})}) {
     EXPECT_NE(problem_after([&](Json& json) { json["categories"] = names; }), "no error") << names;
   }
 }
@@ -233,6 +233,8 @@ TEST(ModelFile, HostileJudgesAreRefused) {
   EXPECT_EQ(problem_of("bias", test::float_blob({1, nan, 3})), "model: 'bias' holds a number that is not finite");
   EXPECT_EQ(problem_of("weights", test::float_blob(std::vector<float>(15, std::numeric_limits<float>::infinity()))),
             "model: 'weights' holds a number that is not finite");
+  EXPECT_EQ(problem_of("weights", test::float_blob(std::vector<float>(15, 3e38F))),
+            "model: 'weights' holds 3e+38, which no training gives");
   EXPECT_NE(problem_of("support_vectors", Json::array({1, 2})), "no error");
   EXPECT_NE(problem_of("support_vectors", Json::array({1, -2, 3})), "no error");
   EXPECT_NE(problem_of("support_vectors", Json::array({1, 2, std::int64_t{1} << 32})), "no error");
@@ -331,16 +333,18 @@ TEST(ModelFile, HostileCountsAreRefused) {
 }
 
 TEST(ModelFile, AHostileCalibrationIsRefused) {
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1e300}) {
     EXPECT_EQ(problem_after([&](Json& json) { json["calibration"]["slope"] = bad; }),
-              "model: 'calibration' is not finite");
+              "model: 'calibration' is not finite, or too large");
     EXPECT_EQ(problem_after([&](Json& json) { json["calibration"]["offset"] = bad; }),
-              "model: 'calibration' is not finite");
+              "model: 'calibration' is not finite, or too large");
   }
 }
 
 TEST(ModelFile, HostileSettingsAreRefused) {
   EXPECT_EQ(problem_after([](Json& json) { json["settings"]["points"] = -1; }), "points -1: expected 1 to 10,000,000");
+  EXPECT_EQ(problem_after([](Json& json) { json["settings"]["points"] = 10'000'000; }),
+            "10000256 points and spin points over all draws: judges take at most 4000000 of an object");
 }
 
 TEST(IsModelFile, LooksAtTheFirstBytes) {

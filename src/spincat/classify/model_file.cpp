@@ -32,6 +32,8 @@ using Json = nlohmann::json;
 
 constexpr std::size_t kMostCategories = 10'000;
 constexpr std::size_t kMostFeatures = 100'000'000;
+// Products and sums of numbers up to this stay finite, and with them margins and confidences.
+constexpr double kLargestNumber = 1e30;
 
 const Json& member(const Json& json, const char* name) {
   const auto at = json.find(name);
@@ -53,6 +55,9 @@ void unpack_floats(const Json& json, const char* name, std::span<float> values) 
   for (const float value : values) {
     if (!std::isfinite(value)) {
       throw InputError(fmt::format("model: '{}' holds a number that is not finite", name));
+    }
+    if (std::abs(value) > kLargestNumber) {
+      throw InputError(fmt::format("model: '{}' holds {}, which no training gives", name, value));
     }
   }
 }
@@ -232,10 +237,14 @@ Familiarity familiarity_from_json(const Json& json, std::size_t categories, std:
 ModelData model_from_json(const Json& json) {
   ModelData model;
   model.settings = settings_from_json(member(json, "settings"));
+  model.settings.validate_for_judges();
   model.categories = value<std::vector<std::string>>(json, "categories");
   const std::size_t n = model.categories.size();
   if (n < 2 || n > kMostCategories || std::set(model.categories.begin(), model.categories.end()).size() != n) {
     throw InputError("model: 'categories' are not two or more different names");
+  }
+  if (std::ranges::find(model.categories, std::string()) != model.categories.end()) {
+    throw InputError("model: a category has an empty name");
   }
   model.judges = judges_from_json(member(json, "judges"), n, model.settings.judge.kernel);
   if (make_encoding(model.settings.encoding)->gives_local_features() == model.judges.codebook.empty()) {
@@ -245,9 +254,10 @@ ModelData model_from_json(const Json& json) {
   model.calibration.slope = value<double>(member(json, "calibration"), "slope");
   model.calibration.offset = value<double>(member(json, "calibration"), "offset");
   model.calibration.familiarity_slope = value<double>(member(json, "calibration"), "familiarity_slope");
-  if (!std::isfinite(model.calibration.slope) || !std::isfinite(model.calibration.offset) ||
-      !std::isfinite(model.calibration.familiarity_slope)) {
-    throw InputError("model: 'calibration' is not finite");
+  for (const double number : {model.calibration.slope, model.calibration.offset, model.calibration.familiarity_slope}) {
+    if (!(std::abs(number) <= kLargestNumber)) {
+      throw InputError("model: 'calibration' is not finite, or too large");
+    }
   }
   model.familiarity = familiarity_from_json(member(json, "familiarity"), n, model.feature_length());
   model.dataset = value<std::string>(json, "dataset");

@@ -131,6 +131,12 @@ std::string pack(const Described& described) {
   return packer.take();
 }
 
+void check_finite(const PackedDescribed& described, const std::filesystem::path& file) {
+  if (!std::ranges::all_of(described.values, &FeatureBytes::are_finite)) {
+    throw RunError(file.string(), "its features came damaged from a journal or another rank: one is not finite");
+  }
+}
+
 PackedDescribed view_described(std::string_view bytes) {
   Unpacker fields(bytes);
   PackedDescribed described;
@@ -208,6 +214,7 @@ void describe_files(TaskFarm& farm, const DescribeJob& job, const DeliverDescrib
   tasks.task = [&](std::size_t i) { return job.file(i).string(); };
   tasks.deliver = [&](std::size_t i, const std::string& result) {
     const PackedDescribed described = view_described(result);
+    check_finite(described, job.file(i));
     deliver(i, described.head, described.values);
   };
   farm.run(tasks, tick);

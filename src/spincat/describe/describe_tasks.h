@@ -56,6 +56,9 @@ struct PackedDescribed {
 };
 PackedDescribed view_described(std::string_view bytes);
 
+// Throws RunError, with the file, where a number is not finite: no object has such features.
+void check_finite(const PackedDescribed& described, const std::filesystem::path& file);
+
 // Which files, and how.
 struct DescribeJob {
   std::size_t files = 0;

@@ -187,6 +187,7 @@ TestTable describe_tested(std::span<const DatasetObject> objects, std::size_t fe
   job.tasks = objects.size();
   job.task = [&](std::size_t i) { return pack(TestedTask{derive_seed(stream, i), objects[i].file.string()}); };
   job.deliver = [&](std::size_t i, const std::string& result) {
+    check_finite(view_described(result), objects[i].file);
     const Described described = unpack_described(result);
     table.seconds += described.seconds;
     table.problems[i] = described.problem;

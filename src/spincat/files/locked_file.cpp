@@ -20,7 +20,7 @@ namespace {
 int open_locked(const std::filesystem::path& name) {
   struct stat status = {};
   while (true) {
-    const int descriptor = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    const int descriptor = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (descriptor < 0) {
       return -1;
     }

@@ -58,6 +58,14 @@ void Settings::validate() const {
   }
 }
 
+void Settings::validate_for_judges() const {
+  const std::int64_t points = (std::int64_t{prepare.points} + prepare.spin_points) * draws;
+  if (points > kMostForJudges) {
+    throw InputError(fmt::format("{} points and spin points over all draws: judges take at most {} of an object",
+                                 points, kMostForJudges));
+  }
+}
+
 Settings preset(std::string_view name) {
   if (name == "default") {
     return default_preset();

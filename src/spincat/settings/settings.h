@@ -70,6 +70,10 @@ struct Settings {
 
   // Throws InputError naming the field, its value and the allowed range.
   void validate() const;
+  // Throws InputError where an object would take more points and spin points, over all draws, than kMostForJudges: a
+  // model file that somebody else made must not keep its user busy for hours.
+  void validate_for_judges() const;
+  static constexpr std::int64_t kMostForJudges = 4'000'000;
 };
 
 // Named settings: "default" (the best we know; docs/how-it-works/encoding.md) and "paper" (as the paper describes it:

@@ -102,6 +102,7 @@ FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, 
 FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, const Execution& execution,
                               std::size_t trainings, BroadcastRows& broadcast) {
   settings.validate();
+  settings.validate_for_judges();
   const FarmExecution run(execution);
   const bool strict = run.strict;
   if (strict && !dataset.skipped.empty()) {

@@ -183,7 +183,27 @@ TEST(CalibrationFormats, SaysWhatIsWrong) {
     deep += "{\"a\":";
   }
   EXPECT_EQ(error_of(deep), "line 1: more than 32 groups in each other");
-  EXPECT_NE(error_of("a: " + std::string(4'000'000, ' ')).find("is larger than"), std::string::npos);
+  EXPECT_EQ(error_of("K: " + std::string(40, '[')), "line 1: more than 32 brackets in each other");
+  EXPECT_NE(error_of("a: " + std::string(1'000'000, ' ')).find("is larger than 1000000 bytes"), std::string::npos);
+}
+
+// Each of these would take hours if a character were looked at again for every other.
+TEST(CalibrationFormats, TakesLargeTextsInTheirTime) {
+  constexpr std::size_t kLength = 900'000;
+  const std::string blanks(kLength / 2, ' ');
+  std::string quotes;
+  std::string lines;
+  std::string groups;
+  for (std::size_t k = 0; k < kLength / 10; ++k) {
+    quotes += "x' ";
+    lines += "a: 1\nb\n";
+    groups += "a: {b: 1}\n";
+  }
+  for (const std::string& text : {"fx: 1\nx" + blanks + "y:", "fx: [" + blanks + quotes + "]", lines, groups,
+                                  "fx: [" + lines + "]", std::string(kLength, ':'), std::string(kLength, '='),
+                                  "=" + std::string(kLength, '}'), ":" + std::string(kLength, '[')}) {
+    EXPECT_NE(input_error([&] { parse_calibration(text); }), "no error");
+  }
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace spincat {
 namespace {
 
-constexpr std::size_t kMostBytes = 4'000'000;
+constexpr std::size_t kMostBytes = 1'000'000;
 constexpr std::size_t kMostDepth = 32;
 constexpr std::size_t kMostEntries = 20'000;
 constexpr std::size_t kMostName = 64;
@@ -95,6 +95,7 @@ class NameReader {
   std::size_t read_character(std::string_view line, std::size_t at);
   std::size_t read_quoted(std::string_view line, std::size_t at);
   bool ends_name(std::string_view line, std::size_t at) const;
+  void add(char c);
   void close(char kind);
   void end_piece();
   void add_entry();
@@ -123,7 +124,7 @@ void NameReader::read_line(std::string_view line) {
   if (brackets_.empty()) {
     end_piece();
   } else {
-    text_ += ' ';
+    add(' ');
   }
 }
 
@@ -172,10 +173,10 @@ std::size_t NameReader::read_character(std::string_view line, std::size_t at) {
   if (c == '#' && after_blank) {
     return line.size();
   }
-  if (c == '"' || (c == '\'' && without_blanks(text_).empty())) {
+  if (c == '"' || (c == '\'' && text_.empty())) {
     return read_quoted(line, at);
   }
-  const bool is_text = brackets_.empty() && !name_ && !without_blanks(text_).empty();  // "Depth 640 x 480 {Z16}"
+  const bool is_text = brackets_.empty() && !name_ && !text_.empty();  // "Depth 640 x 480 {Z16}"
   if (c == '{' && !is_text) {
     const std::size_t before = levels_.size();
     push_level(name_.value_or(""));
@@ -183,8 +184,11 @@ std::size_t NameReader::read_character(std::string_view line, std::size_t at) {
     name_.reset();
     text_.clear();
   } else if (c == '[') {
+    if (brackets_.size() >= kMostDepth) {
+      throw InputError(fmt::format("line {}: more than {} brackets in each other", line_, kMostDepth));
+    }
     brackets_.push_back({c, line_, levels_.size()});
-    text_ += ' ';
+    add(' ');
   } else if (c == '}' || c == ']') {
     close(c == '}' ? '{' : '[');
   } else if (c == ',' && in('{')) {
@@ -193,16 +197,23 @@ std::size_t NameReader::read_character(std::string_view line, std::size_t at) {
     name_ = name_of(text_);
     text_.clear();
   } else {
-    text_ += c;
+    add(c);
   }
   return at + 1;
+}
+
+// No blanks before the text: whether there is any is asked again and again.
+void NameReader::add(char c) {
+  if (!text_.empty() || !is_blank(c)) {
+    text_ += c;
+  }
 }
 
 std::size_t NameReader::read_quoted(std::string_view line, std::size_t at) {
   const char quote = line[at++];
   while (at < line.size() && line[at] != quote) {
     at += line[at] == '\\' && quote == '"' && at + 1 < line.size() ? 1 : 0;
-    text_ += line[at++];
+    add(line[at++]);
   }
   return at + 1;
 }
@@ -226,7 +237,7 @@ void NameReader::close(char kind) {
     levels_.resize(brackets_.back().levels);
     entry_open_ = false;
   } else {
-    text_ += ' ';
+    add(' ');
   }
   brackets_.pop_back();
 }

@@ -26,7 +26,7 @@ struct NameTree {
 // The entries whose name `is_wanted`, with the numbers that follow it. A name ends at ':' or '='; "a.b" is b in the
 // group a. Groups are in braces or farther to the right than their name, as in YAML. Words that are no numbers are
 // passed over. Throws InputError (without a file name) where a bracket is not closed, or there is more than a
-// calibration has: 4 MB, 32 groups in each other, 20,000 entries.
+// calibration has: 1 MB, 32 groups in each other, 20,000 entries.
 NameTree read_name_tree(std::string_view text, bool (*is_wanted)(std::string_view name));
 
 }  // namespace spincat

@@ -12,7 +12,7 @@ struct ReadLimits {
   std::size_t max_points = 100'000'000;     // vertices or points
   std::size_t max_triangles = 200'000'000;  // after polygons are cut into triangles
   // Bytes of memory for each byte of a file, besides 16 MB, where a file packs or repeats what it holds: compressed
-  // points, meshes that many nodes of a scene show, a list of very many very short lines.
+  // points and meshes, meshes that many nodes of a scene show, a list of very many very short lines.
   std::size_t max_growth = 20;
 };
 

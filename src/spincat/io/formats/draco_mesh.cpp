@@ -62,7 +62,7 @@ std::uint64_t memory_of_connectivity(const draco::MeshSequentialDecoder&, Peek p
   return kForEachFace * faces + kForEachPoint * peek.number();
 }
 std::uint64_t memory_of_connectivity(const draco::MeshEdgebreakerDecoder&, Peek peek) {
-  constexpr std::uint64_t kForEachFace = 88, kForEachVertex = 24;
+  constexpr std::uint64_t kForEachFace = 50, kForEachVertex = 24;
   constexpr std::uint64_t kFaceOfAttribute = 40, kVertexOfAttribute = 20;
   const std::uint64_t encoded = peek.number();
   const std::uint64_t faces = peek.number();

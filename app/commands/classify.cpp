@@ -34,14 +34,14 @@ struct ClassifyArguments {
   RunOptions run;
 };
 
-// Objects of a kind that the judges were not trained for: told once, not for each.
+// Objects of a kind that the judges were not trained for: each has a * in the table; why is told once.
 struct KindMismatches {
   std::size_t count = 0;
   std::string first;
 
   void add(const fs::path& file, const Answer& answer) {
     if (answer.classification && !answer.classification->kind_mismatch.empty() && count++ == 0) {
-      first = file.string() + ": " + answer.classification->kind_mismatch;
+      first = file.string() + ": * " + answer.classification->kind_mismatch;
     }
   }
 

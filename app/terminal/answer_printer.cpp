@@ -84,7 +84,7 @@ void AnswerPrinter::print_text(const std::string& file, const Classification& c)
     head_printed_ = true;
   }
   print_row(cut_in_the_middle(printable(file), file_width_), look_.rejects(c) ? "unknown" : name(c.ballot.winner),
-            fmt::format("{:.2f}", c.confidence),
+            fmt::format("{:.2f}{}", c.confidence, c.kind_mismatch.empty() ? "" : "*"),
             fmt::format("{}/{}", c.ballot.count[c.ballot.winner], model_.categories().size() - 1),
             name(c.ballot.runner_up), human_seconds(s.read + s.prepare + s.spin + s.encode + s.judge));
   if (look_.rejects(c)) {

@@ -35,6 +35,9 @@ std::string classification_json(const std::string& file, const Classification& c
   if (rejected) {
     json["best_guess"] = model.categories()[ballot.winner];
   }
+  if (!classification.kind_mismatch.empty()) {
+    json["kind_mismatch"] = classification.kind_mismatch;
+  }
   if (every_judge) {
     Json judges = Json::array();
     for (const Vote& vote : ballot.votes) {

@@ -21,7 +21,8 @@ namespace spincat {
 // one: it is shown for whoever wants to repeat the run.
 
 // {"file", "category", "confidence", "votes": {category: n}, "milliseconds"}, and with `every_judge` also
-// "judges": [{"a", "b", "vote", "margin"}]. When the name is `rejected` for want of confidence, "category" is
+// "judges": [{"a", "b", "vote", "margin"}]. "kind_mismatch" says why the judges were not
+// trained for such an object, where that is so. When the name is `rejected` for want of confidence, "category" is
 // "unknown", and "best_guess" has the name.
 std::string classification_json(const std::string& file, const Classification& classification, const Model& model,
                                 bool every_judge, bool rejected = false);

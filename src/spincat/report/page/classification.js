@@ -151,7 +151,8 @@ function nameLines(object) {
   return [el('p', { class: 'soft' }, nameText(shortName(object)), ' is named'), el('div', { class: 'big', id: 'name' }, nameText(result.category)),
     result.best_guess ? el('p', {}, 'not confident enough for ', nameText(result.best_guess)) : '',
     el('p', {}, 'confidence ', el('b', { id: 'confidence' }, result.confidence.toFixed(2)), ', ',
-      el('b', { id: 'votes' }, result.votes[guess] + ' of ' + (categories.length - 1)), ' votes, ', secondsText(result.milliseconds / 1e3))];
+      el('b', { id: 'votes' }, result.votes[guess] + ' of ' + (categories.length - 1)), ' votes, ', secondsText(result.milliseconds / 1e3)),
+    result.kind_mismatch ? el('p', { id: 'kind-mismatch' }, 'This ', nameText(result.kind_mismatch), '.') : ''];
 }
 
 function showObject(i) {

@@ -65,6 +65,13 @@ TEST(ClassificationJson, TellsEveryJudgesWord) {
   EXPECT_EQ(json["judges"][0], (Json{{"a", "bed"}, {"b", "chair \"x\""}, {"vote", "chair \"x\""}, {"margin", -0.5}}));
 }
 
+TEST(ClassificationJson, SaysWhereTheJudgesWereNotTrainedForTheObject) {
+  Classification classification = chair();
+  classification.kind_mismatch = "is a point cloud";
+  EXPECT_EQ(parsed(classification_json("a.obj", classification, two_categories(), false))["kind_mismatch"],
+            "is a point cloud");
+}
+
 TEST(ClassificationJson, OfARejectedNameIsUnknown) {
   const Json json = parsed(classification_json("a.obj", chair(), two_categories(), false, true));
   EXPECT_EQ(keys_of(json), (Keys{"file", "category", "confidence", "votes", "milliseconds", "best_guess"}));

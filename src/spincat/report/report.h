@@ -21,9 +21,9 @@ namespace spincat {
 // one: it is shown for whoever wants to repeat the run.
 
 // {"file", "category", "confidence", "votes": {category: n}, "milliseconds"}, and with `every_judge` also
-// "judges": [{"a", "b", "vote", "margin"}]. "kind_mismatch" says why the judges were not
-// trained for such an object, where that is so. When the name is `rejected` for want of confidence, "category" is
-// "unknown", and "best_guess" has the name.
+// "judges": [{"a", "b", "vote", "margin"}]. "kind_mismatch" says why the judges were not trained for such an object,
+// where that is so. When the name is `rejected` for want of confidence, "category" is "unknown", and "best_guess" has
+// the name.
 std::string classification_json(const std::string& file, const Classification& classification, const Model& model,
                                 bool every_judge, bool rejected = false);
 // {"file", "kind": "model", "made_by", "dataset", "categories", "object_counts": {category: n}, "features", "judges",

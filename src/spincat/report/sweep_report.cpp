@@ -19,10 +19,15 @@ std::string rate_fields(const Rate& rate) {
   return fmt::format("{},{},{},{}", rate.mean, rate.deviation, rate.interval.low, rate.interval.high);
 }
 
+// The setting as settings_to_json calls it, however the user spelled it.
+std::string key_of(const Variation& variation) {
+  return std::string(find_setting(variation.setting).name);
+}
+
 Json point_json(const Sweep& sweep, const SweepPoint& point) {
   Json json = Json::object();
   for (std::size_t v = 0; v < sweep.variations.size(); ++v) {
-    json[sweep.variations[v].setting] = point.values[v];
+    json[key_of(sweep.variations[v])] = point.values[v];
   }
   return {{"values", json},
           {"mean_class_rate", point.mean_class_rate.mean},
@@ -81,7 +86,7 @@ std::string sweep_json(const Sweep& sweep, const Settings& settings, const Evalu
                        const std::vector<std::string>& command) {
   Json vary = Json::object();
   for (const Variation& variation : sweep.variations) {
-    vary[variation.setting] = variation.values;
+    vary[key_of(variation)] = variation.values;
   }
   Json points = Json::array();
   for (const SweepPoint& point : sweep.points) {
@@ -89,7 +94,7 @@ std::string sweep_json(const Sweep& sweep, const Settings& settings, const Evalu
   }
   Json others = settings_to_json(settings);
   for (const Variation& variation : sweep.variations) {
-    others.erase(std::string(find_setting(variation.setting).name));
+    others.erase(key_of(variation));
   }
   const std::vector<std::uint64_t> seeds =
       options.split_seeds.empty() ? std::vector{settings.seed} : options.split_seeds;
@@ -111,7 +116,7 @@ std::string sweep_json(const Sweep& sweep, const Settings& settings, const Evalu
 std::string sweep_csv(const Sweep& sweep) {
   std::string csv;
   for (const Variation& variation : sweep.variations) {
-    csv += csv_field(variation.setting) + ",";
+    csv += csv_field(key_of(variation)) + ",";
   }
   for (const char* rate : {"mean_class_rate", "overall_rate"}) {
     csv += fmt::format("{0},{0}_std,{0}_low,{0}_high,", rate);

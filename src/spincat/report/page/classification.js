@@ -15,6 +15,7 @@ const surfaceTexts = { external: 'points on the outside', samples: 'points on al
 let current = 0;
 let partShown = 0;
 let allRows = false;
+window.addEventListener('beforeprint', () => { if (!allRows) { allRows = true; showObject(current); } });
 
 function evidenceText(kind, part) {
   if (kind === 'shares') return 'Exact: each spin point’s share of this margin. The shares of all points, with equal parts of the judge’s bias, add up to it.';

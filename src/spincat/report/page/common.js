@@ -69,6 +69,7 @@ function pagedTable(heads, items, row, pageSize = 50) {
     more.hidden = shown >= items.length;
   }
   grow();
+  window.addEventListener('beforeprint', () => { while (shown < items.length) grow(); });
   const table = el('table', { class: 'list' }, el('thead', {}, el('tr', {}, ...heads.map((head) => el('th', { class: head[1] }, head[0])))), body);
   return el('div', {}, el('div', { class: 'scroll' }, table), more);
 }

@@ -105,7 +105,17 @@ TEST(FolderDataset, NeedsTwoCategories) {
             name + ": holds no objects (" + expected + "; objects outside such sub-folders: 1)");
   dir.write("chair/a.off", "");
   EXPECT_EQ(input_error([&] { read_dataset({dir.path()}); }),
-            name + ": only one category ('chair'): two or more are needed");
+            name + ": only one category ('chair'): two or more are needed; 1 skipped, the first is " + name +
+                "/a.off (lies in no category's sub-folder)");
+}
+
+TEST(CsvDataset, AFileThatIsMissingIsToldWhereTooLittleIsLeft) {
+  const test::TempDir dir;
+  dir.write("a.off", "");
+  const fs::path list = dir.write("list.csv", "path,category\na.off,chair\nb.off,table\n");
+  EXPECT_EQ(input_error([&] { read_dataset({list}); }),
+            list.string() + ": only one category ('chair'): two or more are needed; 1 skipped, the first is " +
+                (dir / "b.off").string() + " (no such file)");
 }
 
 // A name may hold anything, and be as long as a field of a list.

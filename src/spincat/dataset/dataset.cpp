@@ -199,17 +199,18 @@ void fill(Dataset& dataset, std::vector<NamedObject> objects) {
   }
 }
 
+// What was skipped may be why too little is left.
 void check_enough(const Dataset& dataset) {
+  const auto& skipped = dataset.skipped;
+  const std::string why = skipped.empty() ? ""
+                                          : fmt::format("; {} skipped, the first is {} ({})", skipped.size(),
+                                                        shown(skipped[0].file.string()), skipped[0].reason);
   if (dataset.objects.empty()) {
-    const auto& skipped = dataset.skipped;
-    throw InputError(dataset.name,
-                     skipped.empty() ? std::string("no object is left")
-                                     : fmt::format("no object is left; {} skipped, the first is {} ({})",
-                                                   skipped.size(), shown(skipped[0].file.string()), skipped[0].reason));
+    throw InputError(dataset.name, "no object is left" + why);
   }
   if (dataset.categories.size() == 1) {
-    throw InputError(dataset.name,
-                     fmt::format("only one category ({}): two or more are needed", in_quotes(dataset.categories[0])));
+    throw InputError(dataset.name, fmt::format("only one category ({}): two or more are needed{}",
+                                               in_quotes(dataset.categories[0]), why));
   }
 }
 

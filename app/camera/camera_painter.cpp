@@ -6,8 +6,8 @@
 #include <chrono>
 #include <cstdio>
 
-#include "app/camera/thread.h"
 #include "app/terminal/terminal.h"
+#include "spincat/geometry/start_thread.h"
 
 namespace spincat::app {
 namespace {
@@ -18,7 +18,7 @@ constexpr std::size_t kMostLines = 24;  // more would scroll away
 }  // namespace
 
 CameraPainter::CameraPainter(const CameraState& state, const std::vector<std::string>& categories)
-    : state_(state), categories_(categories), thread_(start_thread("the terminal", [this] { draw_on(); })) {}
+    : state_(state), categories_(categories), thread_(start_thread([this] { draw_on(); })) {}
 
 void CameraPainter::finish() {
   if (thread_.joinable()) {

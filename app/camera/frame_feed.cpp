@@ -5,9 +5,9 @@
 #include <exception>
 #include <utility>
 
-#include "app/camera/thread.h"
 #include "spincat/describe/stopwatch.h"
 #include "spincat/error.h"
+#include "spincat/geometry/start_thread.h"
 
 namespace spincat::app {
 namespace {
@@ -110,7 +110,7 @@ class NewestFrames : public FrameFeed {
  public:
   NewestFrames(std::unique_ptr<FrameSource> source, std::size_t every)
       : reader_(std::move(source), every),
-        thread_(start_thread("frames in their own time", [this](const std::stop_token& stop) { read_on(stop); })) {}
+        thread_(start_thread([this](const std::stop_token& stop) { read_on(stop); })) {}
 
   std::optional<FedFrame> next() override {
     std::optional<FedFrame> frame = latest_.take(kWait);

@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "app/camera/thread.h"
 #include "spincat/camera/source/calibration.h"
 #include "spincat/camera/source/depth_png.h"
 #include "spincat/error.h"
 #include "spincat/files/file.h"
 #include "spincat/files/system_error_text.h"
+#include "spincat/geometry/start_thread.h"
 
 namespace spincat::app {
 namespace {
@@ -40,8 +40,7 @@ void make_empty_folder(const fs::path& folder) {
 
 }  // namespace
 
-WriterThread::WriterThread(bool waits)
-    : waits_(waits), thread_(start_thread("writing frames", [this] { work_on(); })) {}
+WriterThread::WriterThread(bool waits) : waits_(waits), thread_(start_thread([this] { work_on(); })) {}
 
 WriterThread::~WriterThread() {
   {

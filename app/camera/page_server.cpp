@@ -15,8 +15,8 @@
 
 #include "app/camera/camera_state.h"
 #include "app/camera/page_connection.h"
-#include "app/camera/thread.h"
 #include "spincat/error.h"
+#include "spincat/geometry/start_thread.h"
 
 namespace spincat::app {
 namespace {
@@ -39,7 +39,7 @@ class PageServer::Loop {
     if (!wake_) {
       throw RunError("no descriptor for the live page");
     }
-    thread_ = start_thread("the live page", [this](const std::stop_token& stop) { serve(stop); });
+    thread_ = start_thread([this](const std::stop_token& stop) { serve(stop); });
   }
 
   ~Loop() {

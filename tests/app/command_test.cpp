@@ -161,7 +161,7 @@ TEST_F(Command, SweepWritesATableAndGoesOnFromItsJournal) {
   ASSERT_EQ(first.code, 0) << first.err;
   EXPECT_EQ(lines(first.out).size(), 5U) << first.out;
   const std::string csv = contents(dir_.path() / "s.csv");
-  EXPECT_EQ(lines(csv)[0].rfind("c,spin.spin-points,mean_class_rate,mean_class_rate_std,", 0), 0U) << csv;
+  EXPECT_EQ(lines(csv)[0].rfind("c,spin_points,mean_class_rate,mean_class_rate_std,", 0), 0U) << csv;
   EXPECT_EQ(lines(csv)[4].rfind("30,32,1,0,", 0), 0U) << csv;
   EXPECT_EQ(lines(contents(dir_.path() / "s.csv.journal")).size(), 5U);
   EXPECT_EQ(run(sweep).out, first.out);  // all from the journal: even the times are the same

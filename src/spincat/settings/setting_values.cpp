@@ -102,13 +102,13 @@ struct Unit {
   std::string_view ending;
   BinSizeUnit unit;
 };
-constexpr Unit kUnits[] = {
+constexpr Unit kUnitEndings[] = {
     {"abs", BinSizeUnit::absolute}, {"res", BinSizeUnit::resolution}, {"rel", BinSizeUnit::relative}};
 
 void set_bin_size(Settings& settings, std::string_view text, std::string_view label) {
   std::string_view number = text;
   std::optional<BinSizeUnit> unit;
-  for (const auto& [ending, each] : kUnits) {
+  for (const auto& [ending, each] : kUnitEndings) {
     if (text.ends_with(ending)) {
       number.remove_suffix(ending.size());
       unit = each;

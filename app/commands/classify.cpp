@@ -41,7 +41,7 @@ struct KindMismatches {
 
   void add(const fs::path& file, const Answer& answer) {
     if (answer.classification && !answer.classification->kind_mismatch.empty() && count++ == 0) {
-      first = file.string() + ": * " + answer.classification->kind_mismatch;
+      first = file.string() + ": " + answer.classification->kind_mismatch;
     }
   }
 

@@ -28,6 +28,7 @@ constexpr std::chrono::milliseconds kBetweenFirstLooks(20);  // a rank that goes
 constexpr std::chrono::milliseconds kBetweenLooks(100);
 constexpr std::chrono::seconds kFirst(1);
 constexpr std::chrono::milliseconds kBetweenLastLooks(2);
+constexpr std::chrono::seconds kAllStarted(10);
 constexpr std::chrono::milliseconds kStall(500);  // when we did not look for so long, we were stopped ourselves
 
 // Processes that our parent has started and that run our program: the ranks of this host, as far as they have come.
@@ -102,8 +103,11 @@ class HostRanks {
     return std::ranges::any_of(seen_, [](const auto& rank) { return rank.first != getpid() && is_there(rank.first); });
   }
 
-  // Whether one was lost before anybody saw it: the launcher starts all at once.
-  bool lacks(int ranks) const { return has_launcher_ && static_cast<std::size_t>(ranks) > seen_.size(); }
+  // Whether one of so many was lost before anybody saw it. The launcher starts all at once, but a busy host may take
+  // its time.
+  bool lacks(int ranks) const {
+    return has_launcher_ && Clock::now() - start_ > kAllStarted && static_cast<std::size_t>(ranks) > seen_.size();
+  }
   double gone_for() const { return longest_since(&Seen::last_there); }
   double stopped_for() const { return longest_since(&Seen::last_running); }
   double watched_for() const { return since(start_); }

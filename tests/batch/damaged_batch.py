@@ -33,8 +33,8 @@ def bad_bytes(kind, extension, data, rng):
         return extension, data[:min(len(data) // 2, 60)] if extension not in ("xyz", "obj", "pcd") else data[:5]
     if kind == "bytes":
         return extension, bytes(rng.randrange(128, 256) for _ in range(200))
-    if kind == "extension":
-        return ("glb" if extension != "glb" else "ply"), data
+    if kind == "extension":  # and the first word: a file that plainly is of another format is read as that
+        return ("glb", b"glTF" + data) if extension != "glb" else ("ply", b"ply\n" + data)
     return extension, b""
 
 

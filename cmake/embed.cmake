@@ -21,6 +21,7 @@ std::string_view spincat::embedded::@name@() {
   return {@symbol@, static_cast<std::size_t>(@symbol@_end - @symbol@)};
 }
 ]=])
-  set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS ${file})
+  # Not in a batch of files, which would not know what it depends on.
+  set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS ${file} SKIP_UNITY_BUILD_INCLUSION ON)
   target_sources(${target} PRIVATE ${source})
 endfunction()

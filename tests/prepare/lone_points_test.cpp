@@ -77,6 +77,20 @@ TEST(LonePoints, OneInAHundredWithinThreeRadiiAreFoundUnlessTheyLieAtTheSurface)
   }
 }
 
+TEST(LonePoints, AZeroBesideTheSurfaceIsFoundButNotOneOnIt) {
+  std::vector<Vec3> points = surface(2'000);
+  for (Vec3& p : points) {
+    p += Vec3(0, 0, 0.25 + 0.12);  // the spacing is some 0.07
+  }
+  points.emplace_back(0, 0, 0);
+  EXPECT_EQ(lone_points(points), Indices{2'000});
+  std::vector<Vec3> grid;
+  for (int i = 0; i < 100; ++i) {
+    grid.emplace_back(i % 10, i / 10, 0);
+  }
+  EXPECT_EQ(lone_points(grid), Indices());
+}
+
 TEST(LonePoints, WhatIsThinlySampledStays) {
   // A plate of 5,000 points, and beside it a rod of 40 points in a row.
   std::vector<Vec3> points;

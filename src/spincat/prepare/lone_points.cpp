@@ -16,6 +16,7 @@ namespace {
 constexpr std::size_t kNeighbours = 4;
 constexpr double kOfUsual = 3.0;           // times the usual spacing, and a point stands alone
 constexpr double kOfAround = 4.0;          // times the spacing of its neighbours
+constexpr double kOfAroundZero = 1.5;      // where it lies at exactly (0, 0, 0): a sensor's word for nothing
 constexpr double kUsual = 0.95;            // of the points have at most the usual spacing
 constexpr std::size_t kFewestPoints = 64;  // fewer say nothing about their spacing
 constexpr std::size_t kMostOf = 10;        // at most one point in so many stands alone
@@ -115,7 +116,8 @@ std::vector<std::uint32_t> lone_points(std::span<const Vec3> points) {
   const double usual = quantile(spacing.distance, kUsual);
   std::vector<std::uint32_t> lone;
   for (std::uint32_t i = 0; i < points.size(); ++i) {
-    if (spacing.distance[i] > std::min(kOfUsual * usual, kOfAround * spacing_around(spacing, i))) {
+    const double of_around = points[i].isZero(0.0) ? kOfAroundZero : kOfAround;
+    if (spacing.distance[i] > std::min(kOfUsual * usual, of_around * spacing_around(spacing, i))) {
       lone.push_back(i);
     }
   }

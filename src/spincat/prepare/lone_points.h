@@ -12,9 +12,10 @@ namespace spincat {
 
 // Indices of the points that stand alone, ascending. A point's spacing is the distance to its fourth neighbour; a point
 // stands alone where its spacing is more than 4 times that of its neighbours (their median) or 3 times that of 95 % of
-// all points. A scan that is dense here and thin there keeps all its points: neighbours are alike. Nothing stands alone
-// among fewer than 64 points, or where more than a tenth would: that is how the object was sampled. Deterministic.
-// Precondition: no two points at one place.
+// all points; at exactly (0, 0, 0), a sensor's word for nothing, 1.5 times that of its neighbours are enough. A scan
+// that is dense here and thin there keeps all its points: neighbours are alike. Nothing stands alone among fewer than
+// 64 points, or where more than a tenth would: that is how the object was sampled. Deterministic. Precondition: no two
+// points at one place.
 std::vector<std::uint32_t> lone_points(std::span<const Vec3> points);
 
 // The cloud with each of its points once (the first of those at one place), and without those that stand alone. Where

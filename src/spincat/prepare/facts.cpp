@@ -24,10 +24,6 @@ std::size_t count_repeated(std::span<const std::uint32_t> first) {
   return repeated;
 }
 
-bool all_at_one_place(std::span<const Vec3> points) {
-  return std::ranges::all_of(points, [&](const Vec3& p) { return p == points[0]; });
-}
-
 std::size_t count_dust(const Mesh& used) {
   return all_at_one_place(used.vertices) ? 0 : dust_of(transformed(used, unit_similarity(used.vertices))).size();
 }

@@ -15,6 +15,7 @@
 #include "spincat/prepare/lone_points.h"
 #include "spincat/prepare/normalise.h"
 #include "spincat/prepare/normals.h"
+#include "spincat/prepare/repeats.h"
 #include "spincat/prepare/surface_samples.h"
 
 namespace spincat {
@@ -85,10 +86,6 @@ Surface cloud_surface(const PointCloud& given, const PrepareSettings& settings, 
     points = even_out(points, static_cast<std::size_t>(settings.points), random);
   }
   return {std::move(points), similarity};
-}
-
-bool all_at_one_place(std::span<const Vec3> points) {
-  return std::ranges::all_of(points, [&](const Vec3& p) { return p == points[0]; });
 }
 
 Surface mesh_surface(const Mesh& given, const PrepareSettings& settings, Random& random) {

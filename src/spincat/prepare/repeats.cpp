@@ -20,4 +20,8 @@ std::vector<std::uint32_t> first_at_position(std::span<const Vec3> points) {
   return first;
 }
 
+bool all_at_one_place(std::span<const Vec3> points) {
+  return std::ranges::all_of(points, [&](const Vec3& p) { return p == points[0]; });
+}
+
 }  // namespace spincat

@@ -12,4 +12,7 @@ namespace spincat {
 // For each point the index of the first point at exactly its position (its own index where it is that first one).
 std::vector<std::uint32_t> first_at_position(std::span<const Vec3> points);
 
+// Whether there is only one position.
+bool all_at_one_place(std::span<const Vec3> points);
+
 }  // namespace spincat

@@ -1,4 +1,4 @@
-// Whether three columns after x y z are normals: only the numbers tell. Private to io.
+// Whether three columns after x y z are normals or colours: only the numbers tell. Private to io.
 #pragma once
 
 #include <cmath>
@@ -12,6 +12,7 @@ class UnitNormals {
  public:
   bool possible() const { return possible_; }
   bool found() const { return possible_ && seen_; }
+  void rule_out() { possible_ = false; }
   void look_at(const Vec3& vector) {
     constexpr double kTolerance = 1e-2;
     const double length = vector.norm();

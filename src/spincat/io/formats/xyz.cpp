@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -17,6 +16,7 @@
 #include "spincat/io/formats/likeness.h"
 #include "spincat/io/formats/object_builder.h"
 #include "spincat/io/formats/rows.h"
+#include "spincat/io/formats/unit_normals.h"
 #include "spincat/io/read_limits.h"
 #include "spincat/io/text_cursor.h"
 
@@ -28,28 +28,6 @@ constexpr TextStyle kStyle = {.slash_comments = true, .commas_separate = true};
 std::string_view without_comment(std::string_view line) {
   return line.substr(0, std::min({line.find('#'), line.find("//"), line.size()}));
 }
-
-// Three columns after x y z are a normal or a colour, and only the numbers tell: in a file of normals each has unit
-// length, or is zero or nan where it is not known.
-class NormalColumns {
- public:
-  bool possible() const { return possible_; }
-  bool found() const { return possible_ && seen_; }
-  void rule_out() { possible_ = false; }
-  void look_at(const Vec3& vector) {
-    constexpr double kTolerance = 1e-2;
-    const double length = vector.norm();
-    if (std::abs(length - 1) <= kTolerance) {
-      seen_ = true;
-    } else if (std::isfinite(length) && length != 0) {
-      possible_ = false;
-    }
-  }
-
- private:
-  bool possible_ = true;
-  bool seen_ = false;
-};
 
 // Sees to it that commas mean the same in all lines, and turns decimal commas into points.
 class DecimalMarks {
@@ -259,7 +237,7 @@ class XyzReader {
 
   TextCursor text_;
   ObjectBuilder object_;
-  NormalColumns normals_;
+  UnitNormals normals_;
   DecimalMarks marks_;
   RowWidths widths_;
   std::optional<ColumnNames> names_;

@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 // error.h and execution.h (which stands above all but io/read_limits.h). The table of docs/design.md is this one.
 const std::map<std::string, std::set<std::string>> kAllowed = {
     {"geometry", {}},
+    {"background", {"geometry"}},
     {"files", {"geometry"}},
     {"io", {"geometry", "files"}},
     {"dataset", {"geometry", "files", "io"}},

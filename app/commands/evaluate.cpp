@@ -113,8 +113,8 @@ int run_evaluate(const EvaluateArguments& arguments, TaskFarm& farm) {
   FarmRun run(farm, arguments.run);
   run.keep_journal({}, [&] {
     const TestOptions& test = options.test;
-    const std::string shown = fmt::format("{} {} {} {}", static_cast<int>(test.form), test.noise, test.cloud_points,
-                                          limits_text(arguments.dataset.options.limits));
+    const std::string shown = fmt::format("{} {} {} {}", name_of(test.form), test.used_noise(),
+                                          test.used_cloud_points(), limits_text(arguments.dataset.options.limits));
     return RunIdentity{settings_identity("evaluate", settings, shown), data_identity(arguments)};
   });
   options.unknown_objects = unknown_objects_of(arguments);

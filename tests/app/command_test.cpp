@@ -288,7 +288,7 @@ TEST_F(Command, WrongUseAndBadInputAreOneLineAndExitTwo) {
       {"train shapes -o x.spincat --thread 2",
        "unknown option --thread; did you mean --threads? (spincat train --help)"},
       {"info new-cone.off more.off", "unexpected argument 'more.off' (spincat info --help)"},
-      {"evaluate shapes --test-as pudding", "--test-as 'pudding' is not known"},
+      {"evaluate shapes --test-as pudding", "--test-as: form 'pudding' is not known"},
       {"evaluate shapes --noise 2", "--noise 2: expected 0 to 1"},
       {"evaluate", "evaluate needs a DATASET, or --train and --test"},
       {"evaluate --train shapes", "--train requires --test"},

@@ -269,53 +269,5 @@ TEST_F(Protocols, AJournalKeepsSplitsForTheSameDataAndSettings) {
   EXPECT_EQ(resumed(), 0U);
 }
 
-TEST(InTestForm, TurnsRigidly) {
-  const Mesh box = test::box(1, 2, 3);
-  TestOptions options;
-  options.form = TestForm::turned;
-  const Mesh turned = std::get<Mesh>(in_test_form(box, options, 1));
-  EXPECT_EQ(turned.triangles, box.triangles);
-  EXPECT_GT((turned.vertices[7] - box.vertices[7]).norm(), 0.01);
-  for (std::size_t i = 0; i < 8; ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      EXPECT_NEAR((turned.vertices[i] - turned.vertices[j]).norm(), (box.vertices[i] - box.vertices[j]).norm(), 1e-12);
-    }
-  }
-  EXPECT_NE(std::get<Mesh>(in_test_form(box, options, 2)).vertices[7], turned.vertices[7]);
-}
-
-TEST(InTestForm, SamplesTheSurfaceWithNoise) {
-  TestOptions options;
-  options.form = TestForm::cloud;
-  options.cloud_points = 500;
-  options.noise = 0.0;
-  const auto on_surface = std::get<PointCloud>(in_test_form(test::box(2, 2, 2), options, 1));
-  ASSERT_EQ(on_surface.points.size(), 500U);
-  EXPECT_TRUE(on_surface.normals.empty());
-  for (const Vec3& p : on_surface.points) {
-    EXPECT_NEAR(p.cwiseAbs().maxCoeff(), 1.0, 1e-12);
-  }
-  options.noise = 0.01;
-  const auto noisy = std::get<PointCloud>(in_test_form(test::box(2, 2, 2), options, 1));
-  double squares = 0.0;
-  for (std::size_t i = 0; i < 500; ++i) {
-    squares += (noisy.points[i] - on_surface.points[i]).squaredNorm() / 1500.0;
-  }
-  EXPECT_NEAR(std::sqrt(squares), 0.02 * std::sqrt(3.0), 0.003);  // the diameter is nearly twice the root of three
-}
-
-TEST(InTestForm, OptionsOutOfRangeAreRefused) {
-  TestOptions options;
-  options.noise = std::nan("");
-  EXPECT_EQ(input_error([&] { options.validate(); }), "noise nan is out of range (0 to 1)");
-  options = {};
-  options.cloud_points = 0;
-  EXPECT_EQ(input_error([&] { options.validate(); }), "number of cloud points 0 is out of range (1 to 10000000)");
-  options.form = TestForm::cloud;
-  Mesh flat;
-  flat.vertices = {Vec3(0, 0, 0), Vec3(1, 0, 0)};
-  EXPECT_EQ(input_error([&] { in_test_form(flat, options, 1); }), "has no area to draw a cloud's points from");
-}
-
 }  // namespace
 }  // namespace spincat

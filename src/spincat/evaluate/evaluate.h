@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "spincat/dataset/dataset.h"
@@ -23,18 +24,39 @@ enum class Protocol {
   across,         // all objects of another data set (or of the data set's own test part), once
 };
 
-// How objects are shown to the judges.
+// How objects are shown to the judges. A cloud stays a cloud: as a mesh with noise it only gets noise, as one with
+// holes or inner faces it is an error.
 enum class TestForm {
   as_is,
-  turned,  // turned at random, evenly over all rotations
-  cloud,   // points drawn evenly from the surface, without normals, with noise; clouds stay clouds and only get noise
+  turned,      // turned at random, evenly over all rotations
+  cloud,       // points drawn evenly from the surface, without normals, with noise
+  noisy_mesh,  // vertices moved by noise, those at one place together
+  dense_mesh,  // edges halved, the longest first, until there are 8,000 triangles; then vertices moved by noise
+  holes,   // faces taken away at random until a fifth of the area is gone; edges are at most a tenth of the diameter
+  inner,   // 30 random boxes and plates added in the middle 80 % of the bounding box
+  cut,     // a cloud without the 30 % of its points that lie beyond a plane of random direction
+  sparse,  // a cloud of few points
 };
+
+// As options and JSON spell it: "noisy-mesh".
+std::string_view name_of(TestForm form);
+// Throws InputError that lists the names when there is none.
+TestForm test_form_named(std::string_view name);
 
 struct TestOptions {
   TestForm form = TestForm::as_is;
-  double noise = 0.01;      // of clouds: standard deviation along each axis, in diameters of the object, 0 to 1; the
-                            // diameter is twice the distance of the furthest point from the centre of the bounding box
-  int cloud_points = 2048;  // of clouds, 1 to 10,000,000
+  // Of clouds and moved vertices: standard deviation along each axis, in diameters of the object, 0 to 1; the diameter
+  // is twice the distance of the furthest point from the centre of the bounding box. None means what suits the form:
+  // .01 for cloud and dense_mesh, .005 for noisy_mesh, 0 for cut and sparse.
+  std::optional<double> noise;
+  // Of clouds, 1 to 10,000,000. None means 300 for sparse, else 2,048.
+  std::optional<int> cloud_points;
+
+  double used_noise() const;
+  int used_cloud_points() const;
+  // Whether they change anything.
+  bool has_noise() const;
+  bool has_cloud_points() const;
 
   // Throws InputError naming the option, its value and the allowed range.
   void validate() const;

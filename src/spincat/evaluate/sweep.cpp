@@ -90,8 +90,8 @@ Json identity_of(const Dataset& dataset, const SettingChoices& settings, const s
             {"split_seeds", options.split_seeds},
             {"fewest_objects", options.fewest_objects},
             {"test_as", static_cast<int>(options.test.form)},
-            {"noise", options.test.noise},
-            {"cloud_points", options.test.cloud_points},
+            {"noise", options.test.used_noise()},
+            {"cloud_points", options.test.used_cloud_points()},
             {"max_points", dataset.limits.max_points},
             {"max_triangles", dataset.limits.max_triangles},
             {"max_growth", dataset.limits.max_growth}}}};

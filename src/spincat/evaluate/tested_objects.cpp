@@ -2,113 +2,31 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
-#include <utility>
-#include <variant>
 
 #include "spincat/describe/describe_tasks.h"
 #include "spincat/describe/packed_limits.h"
 #include "spincat/describe/packed_settings.h"
 #include "spincat/describe/rank_problems.h"
 #include "spincat/error.h"
+#include "spincat/evaluate/test_forms.h"
 #include "spincat/geometry/random.h"
 #include "spincat/io/read_object.h"
 #include "spincat/parallel/farm_execution.h"
 #include "spincat/parallel/packing.h"
-#include "spincat/prepare/surface_samples.h"
 
 namespace spincat {
 namespace {
 
 constexpr std::uint64_t kTestFormPurpose = 101;  // of derive_seed
 
-Object turned(Object object, Random& random) {
-  // Four normal numbers are a random direction in four dimensions: evenly distributed unit quaternions.
-  const double w = random.normal();
-  const double x = random.normal();
-  const double y = random.normal();
-  const double z = random.normal();
-  const Eigen::Matrix3d turn = Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix();
-  const auto turn_all = [&](std::vector<Vec3>& vectors) {
-    for (Vec3& v : vectors) {
-      v = turn * v;
-    }
-  };
-  if (Mesh* mesh = std::get_if<Mesh>(&object)) {
-    turn_all(mesh->vertices);
-  } else {
-    auto& cloud = std::get<PointCloud>(object);
-    turn_all(cloud.points);
-    turn_all(cloud.normals);
-    if (cloud.sensor) {
-      cloud.sensor = turn * *cloud.sensor;
-    }
-  }
-  return object;
-}
-
-double diameter(const std::vector<Vec3>& points) {
-  Eigen::AlignedBox3d bounds;
-  for (const Vec3& p : points) {
-    bounds.extend(p);
-  }
-  double furthest = 0.0;
-  for (const Vec3& p : points) {
-    furthest = std::max(furthest, (p - bounds.center()).norm());
-  }
-  return 2.0 * furthest;
-}
-
-PointCloud noisy_cloud(const Object& object, const TestOptions& options, Random& random) {
-  PointCloud cloud;
-  if (const Mesh* mesh = std::get_if<Mesh>(&object)) {
-    if (!has_area(*mesh)) {
-      throw InputError("has no area to draw a cloud's points from");
-    }
-    cloud.points = surface_samples(*mesh, static_cast<std::size_t>(options.cloud_points), random).positions;
-  } else {
-    cloud.points = std::get<PointCloud>(object).points;
-    cloud.sensor = std::get<PointCloud>(object).sensor;
-  }
-  const double amount = options.noise * diameter(cloud.points);
-  for (Vec3& p : cloud.points) {
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      p[axis] += amount * random.normal();
-    }
-  }
-  return cloud;
-}
-
 }  // namespace
-
-void TestOptions::validate() const {
-  if (!(noise >= 0.0 && noise <= 1.0)) {
-    throw InputError(fmt::format("noise {} is out of range (0 to 1)", noise));
-  }
-  if (cloud_points < 1 || cloud_points > 10'000'000) {
-    throw InputError(fmt::format("number of cloud points {} is out of range (1 to 10000000)", cloud_points));
-  }
-}
 
 void fields(auto& archive, MessageOf<TestOptions> auto& options) {
   auto& [form, noise, cloud_points] = options;  // does not compile when a member is forgotten
   archive(form, noise, cloud_points);
-}
-
-Object in_test_form(const Object& object, const TestOptions& options, std::uint64_t seed) {
-  Random random(seed);
-  switch (options.form) {
-    case TestForm::turned:
-      return turned(object, random);
-    case TestForm::cloud:
-      return noisy_cloud(object, options, random);
-    case TestForm::as_is:
-      break;
-  }
-  return object;
 }
 
 std::span<const float> TestTable::features_of(std::uint32_t object, std::uint32_t view) const {

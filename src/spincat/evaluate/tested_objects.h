@@ -1,4 +1,4 @@
-// Objects that are only tested: described as they are, turned, or as noisy clouds.
+// Objects that are only tested, described in the form in which they are tested.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,6 @@
 #include "spincat/describe/kinds.h"
 #include "spincat/evaluate/evaluate.h"
 #include "spincat/execution.h"
-#include "spincat/geometry/object.h"
 #include "spincat/judge/gram.h"
 #include "spincat/parallel/task.h"
 #include "spincat/settings/settings.h"
@@ -21,10 +20,6 @@ namespace spincat {
 
 // The name of this kind of work, as ranks tell each other.
 inline constexpr const char* kTestedTasks = "feature vectors of test objects";
-
-// The object in the form it is tested in. Deterministic: the same for the same object, options and seed. Throws
-// InputError when a mesh without area is to become a cloud.
-Object in_test_form(const Object& object, const TestOptions& options, std::uint64_t seed);
 
 struct TestTable {
   std::vector<DatasetObject> objects;  // N, as they were handed in

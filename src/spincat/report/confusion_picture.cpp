@@ -14,7 +14,7 @@
 namespace spincat {
 namespace {
 
-constexpr std::size_t kLongestName = 20;
+constexpr std::size_t kLongestLabel = 20;
 constexpr double kMargin = 14.0;
 constexpr double kTitle = 46.0;  // height of the lines above the matrix
 using Colour = std::array<double, 3>;
@@ -43,7 +43,7 @@ std::string xml_text(std::string_view text) {
 }
 
 std::string shown_name(const std::string& name) {
-  return xml_text(cut_in_the_middle(printable(name), kLongestName));
+  return xml_text(cut_in_the_middle(printable(name), kLongestLabel));
 }
 
 struct Layout {
@@ -52,7 +52,7 @@ struct Layout {
     font = std::min(13.0, cell * 0.8);
     std::size_t longest = 0;
     for (const std::string& name : e.categories) {
-      longest = std::max(longest, text_width(cut_in_the_middle(printable(name), kLongestName)));
+      longest = std::max(longest, text_width(cut_in_the_middle(printable(name), kLongestLabel)));
     }
     label = 0.62 * font * static_cast<double>(longest) + 10.0;
     left = kMargin + label + font + 8.0;

@@ -70,18 +70,6 @@ Json confidence(const ConfidenceMeasure& measure) {
   return json;
 }
 
-const char* form_name(TestForm form) {
-  switch (form) {
-    case TestForm::turned:
-      return "turned";
-    case TestForm::cloud:
-      return "cloud";
-    case TestForm::as_is:
-      break;
-  }
-  return "as-is";
-}
-
 // What is needed to repeat the run, beside the settings.
 Json run_of(const Evaluation& e, const EvaluateOptions& options, const std::vector<std::string>& command) {
   Json json = {{"command", command},
@@ -89,11 +77,13 @@ Json run_of(const Evaluation& e, const EvaluateOptions& options, const std::vect
                {"protocol", protocol_name(e.protocol)},
                {"test_share", options.test_share},
                {"split_seeds", e.split_seeds},
-               {"test_as", form_name(options.test.form)},
+               {"test_as", name_of(options.test.form)},
                {"list_checksum", e.list_checksum}};
-  if (options.test.form == TestForm::cloud) {
-    json["noise"] = options.test.noise;
-    json["cloud_points"] = options.test.cloud_points;
+  if (options.test.has_noise()) {
+    json["noise"] = options.test.used_noise();
+  }
+  if (options.test.has_cloud_points()) {
+    json["cloud_points"] = options.test.used_cloud_points();
   }
   if (e.protocol != Protocol::splits) {
     json.erase("test_share");

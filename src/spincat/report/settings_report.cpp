@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
+#include "spincat/report/json_parts.h"
 #include "spincat/report/text_table.h"
 #include "spincat/settings/setting_table.h"
 #include "spincat/settings/settings_json.h"
@@ -52,7 +51,6 @@ std::string settings_list_text(std::size_t width) {
 }
 
 std::string settings_list_json() {
-  using Json = nlohmann::ordered_json;
   Json list = Json::array();
   for (const Setting& setting : setting_table()) {
     const std::string name(setting.name);

@@ -8,6 +8,7 @@
 #include <set>
 #include <tuple>
 
+#include "spincat/geometry/random.h"
 #include "support/expect_error.h"
 #include "support/shapes.h"
 
@@ -255,6 +256,25 @@ TEST(PrepareCloud, EstimatedNormalsTurnOutwardsOrToTheSensor) {
     EXPECT_GT(outward.surface.normal(i).dot(outward.surface.position(i)), 0.9F);
     EXPECT_LT(inward.surface.normal(i).dot(inward.surface.position(i)), -0.9F);
   }
+}
+
+// 50,000 points of a ball with noise of 1 % of its radius. A normal of a plane through k neighbours within r is off by
+// about noise / (r sqrt(k) / 2): 0.09 among all points, 0.04 among the 8,192 of which 2,048 are drawn.
+TEST(PrepareCloud, OfADenseCloudNormalsLookFurtherThanNoise) {
+  Random random(12);
+  PointCloud ball;
+  for (int i = 0; i < 50'000; ++i) {
+    const Vec3 direction = Vec3(random.normal(), random.normal(), random.normal()).normalized();
+    ball.points.push_back(direction * (1.0 + 0.01 * random.normal()));
+  }
+  const PreparedObject prepared = prepare(ball, {}, 5);
+  ASSERT_EQ(prepared.surface.size(), 2048U);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < prepared.surface.size(); ++i) {
+    sum += std::acos(std::min(1.0F, prepared.surface.normal(i).dot(prepared.surface.position(i).normalized())));
+  }
+  EXPECT_LT(sum / 2048.0, 0.065);
+  EXPECT_EQ(prepare(ball, {}, 5).surface.position(7), prepared.surface.position(7));
 }
 
 TEST(PrepareSettings, AreRefusedOutOfRange) {

@@ -27,6 +27,8 @@ enum Purpose : std::uint64_t { kSurface = 1, kStretch = 2 };
 // Fewer points than this from outside (objects thinner than a pixel) say too little: all faces are sampled instead.
 constexpr std::size_t kFewestExternalPoints = 64;
 
+constexpr std::size_t kMoreThanDrawn = 4;  // times as many points have their normals estimated
+
 // The surface found for an object, in a frame of moderate size, before the spin points are chosen.
 struct Surface {
   SurfacePoints points;
@@ -77,10 +79,24 @@ std::vector<Vec3> cloud_normals(const PointCloud& cloud, const PrepareSettings& 
   return normals;
 }
 
+// So many of a dense cloud's points, evenly spread, that normals are not estimated for a million points of which two
+// thousand are drawn: from neighbours that lie further apart, noise counts for less. Clouds with normals stay.
+PointCloud thinned(PointCloud cloud, std::size_t count, Random& random) {
+  if (cloud.points.size() <= count || !cloud.normals.empty()) {
+    return cloud;
+  }
+  const std::vector<Vec3> no_normals(cloud.points.size(), Vec3::Zero());
+  cloud.points = even_out({cloud.points, no_normals}, count, random).positions;
+  return cloud;
+}
+
 Surface cloud_surface(const PointCloud& given, const PrepareSettings& settings, Random& random) {
   const PointCloud object = without_lone_points(given);
   const Similarity similarity = unit_similarity(object.points);
-  const PointCloud cloud = transformed(object, similarity);
+  PointCloud cloud = transformed(object, similarity);
+  if (settings.surface != SurfaceKind::vertices) {
+    cloud = thinned(std::move(cloud), kMoreThanDrawn * static_cast<std::size_t>(settings.points), random);
+  }
   SurfacePoints points{cloud.points, cloud_normals(cloud, settings)};
   if (settings.surface != SurfaceKind::vertices) {
     points = even_out(points, static_cast<std::size_t>(settings.points), random);

@@ -121,6 +121,13 @@ void DatasetArguments::add_to(CLI::App& command, bool required) {
       .add_option("--map", options.category_map,
                   "A CSV file with the columns class,category: keep these classes, under these names")
       ->type_name("FILE");
+  command
+      .add_option(
+          "--others", options.others,
+          "Objects of none of the categories, a folder or a CSV file with the column path: what is like them is "
+          "a stranger")
+      ->type_name("DATA");
+  command.add_option("--others-models", options.others_models, "As --models, for --others")->type_name("FOLDER");
   command.add_flag("--strict", strict, "Stop at an object that cannot be read (default: skip it and say so)");
   add_limit_options(command, options.limits);
 }

@@ -38,7 +38,7 @@ struct CameraArguments {
   bool real_time = false;
   FrameSettings frames;
   std::optional<std::string> up;
-  double reject = 0.0;
+  std::optional<double> reject;
   fs::path record;
   fs::path masks;
   std::optional<std::string> view;
@@ -311,8 +311,9 @@ Command add_camera(CLI::App& parent) {
                    "What is up for the camera, as x,y,z (x right, y down, z forward): tells a table from a wall")
       ->type_name("X,Y,Z");
   command
-      ->add_option("--reject", arguments->reject,
-                   "Answer 'unknown' where the confidence is below this: for objects of none of the categories")
+      ->add_option(
+          "--reject", arguments->reject,
+          "Answer 'unknown' where an object is less known than this (0: name everything; default: the model's choice)")
       ->check(in_range({0.0, 1.0}))
       ->type_name("P");
   command->add_option("--record", arguments->record, "Also keep the frames: a folder that SOURCE may name later")

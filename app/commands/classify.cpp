@@ -152,14 +152,15 @@ Command add_classify(CLI::App& parent) {
   command->footer(
       "Example:\n"
       "  spincat classify furniture.spincat chair.obj scans/*.ply\n"
-      "  spincat classify furniture.spincat incoming/ --reject 0.5 --json > names.jsonl");
+      "  spincat classify furniture.spincat incoming/ --json > names.jsonl");
   command->add_option("model", arguments->model, "A model file written by spincat train")
       ->type_name("MODEL")
       ->required();
   command->add_option("files", arguments->inputs, "Objects, or folders of objects")->type_name("FILE")->required();
   command
-      ->add_option("--reject", arguments->look.reject,
-                   "Answer 'unknown' where the confidence is below this: for objects of none of the categories")
+      ->add_option(
+          "--reject", arguments->look.reject,
+          "Answer 'unknown' where an object is less known than this (0: name everything; default: the model's choice)")
       ->check(in_range({0.0, 1.0}))
       ->type_name("P");
   command->add_flag("--votes", arguments->look.votes, "Show what every judge said");

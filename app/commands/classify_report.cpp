@@ -25,7 +25,7 @@ PageObject explained(const Model& model, const NamedFile& named, const PageDetai
   try {
     const Object object = read_object(named.file, limits);
     const Evidence evidence = explain(model, object, found.ballot);
-    return page_object(file, found, model, object, evidence, detail, look.rejects(found));
+    return page_object(file, found, model, object, evidence, detail, look.rejects(found, model));
   } catch (const Error& error) {  // it was there a moment ago
     return page_object_error(file, std::string(without_file(error.what(), file)));
   } catch (const std::bad_alloc&) {

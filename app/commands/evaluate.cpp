@@ -102,6 +102,12 @@ std::string data_identity(const EvaluateArguments& a) {
   for (const std::filesystem::path& file : unknown_objects_of(a)) {
     data.add(file);
   }
+  if (!a.dataset.options.others.empty()) {
+    data.add(a.dataset.options.others);
+    for (const std::filesystem::path& file : read_objects(a.dataset.options.others, a.dataset.options.others_models)) {
+      data.add(file);
+    }
+  }
   return data.text();
 }
 

@@ -107,6 +107,9 @@ std::string identity_of(const Dataset& dataset) {
   for (const DatasetObject& object : dataset.objects) {
     data.add(object.file);
   }
+  for (const std::filesystem::path& file : dataset.others) {
+    data.add(file);
+  }
   return data.text();
 }
 

@@ -62,7 +62,7 @@ void AnswerPrinter::print(const std::string& file, const Answer& answer) {
     print_error(file, answer.error);
   } else if (look_.json) {
     fmt::print("{}\n", classification_json(file, *answer.classification, model_, look_.votes,
-                                           look_.rejects(*answer.classification)));
+                                           look_.rejects(*answer.classification, model_)));
   } else {
     print_text(file, *answer.classification);
   }
@@ -83,12 +83,13 @@ void AnswerPrinter::print_text(const std::string& file, const Classification& c)
     print_row("file", "category", "confidence", "votes", "runner-up", "time");
     head_printed_ = true;
   }
-  print_row(cut_in_the_middle(printable(file), file_width_), look_.rejects(c) ? "unknown" : name(c.ballot.winner),
+  print_row(cut_in_the_middle(printable(file), file_width_),
+            look_.rejects(c, model_) ? "unknown" : name(c.ballot.winner),
             fmt::format("{:.2f}{}", c.confidence, c.kind_mismatch.empty() ? "" : "*"),
             fmt::format("{}/{}", c.ballot.count[c.ballot.winner], model_.categories().size() - 1),
             name(c.ballot.runner_up), human_seconds(s.read + s.prepare + s.spin + s.encode + s.judge));
-  if (look_.rejects(c)) {
-    fmt::print("    not confident enough for {}\n", name(c.ballot.winner));
+  if (look_.rejects(c, model_)) {
+    fmt::print("    most like {}, but hardly of any category (known {:.2f})\n", name(c.ballot.winner), c.known);
   }
   if (look_.votes) {
     fmt::print("{}", ballot_text(c.ballot, model_.categories()));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,9 +14,9 @@ namespace spincat::app {
 
 struct AnswerLook {
   bool json = false;
-  bool votes = false;   // what every judge said, too
-  double reject = 0.0;  // names of less confidence are not given
-  bool rejects(const Classification& c) const { return c.confidence < reject; }
+  bool votes = false;            // what every judge said, too
+  std::optional<double> reject;  // objects that are less known are not named; none: the model's choice
+  bool rejects(const Classification& c, const Model& by) const { return c.known < reject.value_or(by.least_known()); }
 };
 
 // An error without the name of its file, for those who tell that besides.

@@ -12,6 +12,7 @@
 #include "spincat/error.h"
 #include "spincat/evaluate/tested_objects.h"
 #include "spincat/evaluate/trial.h"
+#include "spincat/train/background.h"
 #include "spincat/train/train_tasks.h"
 
 namespace spincat {
@@ -24,6 +25,7 @@ WorkFactory rank_work() {
       {kSumsTasks, make_sums_work},
       {kDescribeTasks,
        [kept](std::string_view context) { return make_describe_work(context, kept->rows, [kept] { *kept = {}; }); }},
+      {kBackgroundTasks, make_background_work},
       {kClassifyTasks, make_classify_work},
       {kTestedTasks, make_tested_work},
       {kTableTasks, [kept](std::string_view context) { return make_table_work(context, *kept); }},

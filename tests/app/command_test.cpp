@@ -94,7 +94,8 @@ class Command : public testing::Test {
 
   void train() {
     make_shapes();
-    const Result result = run("train shapes -o shapes.spincat --copies 1 --points 256 --spin-points 32 --threads 2");
+    const Result result =
+        run("train shapes -o shapes.spincat --copies 1 --background 8 --points 256 --spin-points 32 --threads 2");
     ASSERT_EQ(result.code, 0) << result.err;
   }
 
@@ -173,9 +174,11 @@ TEST_F(Command, SweepWritesATableAndGoesOnFromItsJournal) {
 
 TEST_F(Command, OneSeedGivesTheSameBytesWhateverTheThreads) {
   make_shapes();
-  ASSERT_EQ(run("train shapes -o a.spincat --copies 1 --points 256 --spin-points 32 --threads 1").code, 0);
-  ASSERT_EQ(run("train shapes -o b.spincat --copies 1 --points 256 --spin-points 32 --threads 3").code, 0);
-  ASSERT_EQ(run("train shapes -o c.spincat --copies 1 --points 256 --spin-points 32 --seed 2").code, 0);
+  ASSERT_EQ(run("train shapes -o a.spincat --copies 1 --background 8 --points 256 --spin-points 32 --threads 1").code,
+            0);
+  ASSERT_EQ(run("train shapes -o b.spincat --copies 1 --background 8 --points 256 --spin-points 32 --threads 3").code,
+            0);
+  ASSERT_EQ(run("train shapes -o c.spincat --copies 1 --background 8 --points 256 --spin-points 32 --seed 2").code, 0);
   const std::string a = contents(dir_.path() / "a.spincat");
   EXPECT_GT(a.size(), 1000U);
   EXPECT_TRUE(a == contents(dir_.path() / "b.spincat"));
@@ -220,11 +223,13 @@ TEST_F(Command, EvaluateLearnsFromOneDataSetAndTestsOnAnother) {
   dir_.write("list.csv", "path,category\nnew box.off,box\nnew-cone.off,cone\nnew-cone.off,cone\nlamp.off,lamp\n");
   dir_.write("lamp.off", cone_off(1, 1));
   const Result result =
-      run("evaluate --train shapes --test list.csv --unknown lamp --copies 0 --points 256 --spin-points 32 --json");
+      run("evaluate --train shapes --test list.csv --unknown lamp --copies 0 --background 8 --points 256 --spin-points "
+          "32 --json");
   EXPECT_EQ(result.code, 2) << result.out;  // --unknown is missing
   dir_.write("lamp/a.off", cone_off(3, 1));
   const Result found =
-      run("evaluate --train shapes --test list.csv --unknown lamp --copies 0 --points 256 --spin-points 32 --json");
+      run("evaluate --train shapes --test list.csv --unknown lamp --copies 0 --background 8 --points 256 --spin-points "
+          "32 --json");
   ASSERT_EQ(found.code, 0) << found.err;
   const Json json = Json::parse(found.out);
   EXPECT_EQ(json.at("confusion"), Json::parse("[[1, 0], [0, 1]]"));
@@ -336,7 +341,7 @@ TEST_F(Command, WrongUseAndBadInputAreOneLineAndExitTwo) {
 
 TEST_F(Command, AFullDiskIsAnErrorAndNeverAModel) {
   make_shapes();
-  const Result to_full = run("train shapes -o /dev/full --copies 0 --points 256 --spin-points 32");
+  const Result to_full = run("train shapes -o /dev/full --copies 0 --background 8 --points 256 --spin-points 32");
   EXPECT_EQ(to_full.code, 1);
   EXPECT_EQ(to_full.err, "spincat: /dev/full: cannot write: no space left on device\n");
   const Result printed = run("--help", ">/dev/full");
@@ -347,12 +352,13 @@ TEST_F(Command, AFullDiskIsAnErrorAndNeverAModel) {
 TEST_F(Command, UnreadableObjectsAreSkippedOrStrict) {
   make_shapes();
   dir_.write("shapes/box/broken.off", "OFF\n1 1 0\n");
-  const Result skipped = run("train shapes -o x.spincat --copies 0 --points 256 --spin-points 32");
+  const Result skipped = run("train shapes -o x.spincat --copies 0 --background 8 --points 256 --spin-points 32");
   EXPECT_EQ(skipped.code, 0);
   EXPECT_NE(skipped.err.find("spincat: shapes/box/broken.off: "), std::string::npos) << skipped.err;
   EXPECT_NE(skipped.err.find("(skipped)"), std::string::npos) << skipped.err;
-  EXPECT_EQ(run("train shapes -o x.spincat --copies 0 --points 256 --spin-points 32 --quiet").err, "");
-  const Result strict = run("train shapes -o y.spincat --copies 0 --points 256 --spin-points 32 --strict");
+  EXPECT_EQ(run("train shapes -o x.spincat --copies 0 --background 8 --points 256 --spin-points 32 --quiet").err, "");
+  const Result strict =
+      run("train shapes -o y.spincat --copies 0 --background 8 --points 256 --spin-points 32 --strict");
   EXPECT_EQ(strict.code, 2);
   EXPECT_EQ(lines(strict.err).size(), 1U) << strict.err;
   EXPECT_FALSE(fs::exists(dir_.path() / "y.spincat"));
@@ -393,7 +399,8 @@ TEST_F(Command, StrangersThatAreNoFilesAreListedAndTheOthersTested) {
   ASSERT_EQ(::mkfifo((dir_.path() / "pipe.off").c_str(), 0600), 0);  // nobody writes to it
   fs::create_symlink("/dev/zero", dir_.path() / "endless.off");
   const Result result =
-      run("evaluate shapes --confidence --unknown list.csv --splits 2 --copies 0 --points 256 --spin-points 32");
+      run("evaluate shapes --confidence --unknown list.csv --splits 2 --copies 0 --background 8 --points 256 "
+          "--spin-points 32");
   EXPECT_EQ(result.code, 0) << result.err;
   for (const char* file : {"pipe.off", "endless.off"}) {
     EXPECT_NE(result.err.find(fmt::format("spincat: {}: is not a regular file", file)), std::string::npos)
@@ -408,7 +415,7 @@ TEST_F(Command, AnObjectThatIsTooLargeForTheMemoryEndsWhatLearns) {
 #endif
   make_shapes();
   fs::resize_file(dir_.write("shapes/box/large.off", "OFF\n"), std::uintmax_t{1} << 40);
-  const std::string small = " --copies 0 --points 256 --spin-points 32 --threads 2";
+  const std::string small = " --copies 0 --background 8 --points 256 --spin-points 32 --threads 2";
   for (const std::string command :
        {"train shapes -o x.spincat", "evaluate shapes --splits 2", "sweep shapes --vary c=3 --splits 2"}) {
     const Result result = run(command + small, "", "ulimit -v 4000000");
@@ -429,14 +436,15 @@ TEST_F(Command, ClosedStreamsAreNoReasonToCrash) {
   EXPECT_EQ(run("classify shapes.spincat absent.off", "2>&-").code, 2);
   EXPECT_EQ(run("classify shapes.spincat absent.off", "2>/dev/full").code, 2);
   EXPECT_EQ(run("classify shapes.spincat new-cone.off", ">&-").code, 1);  // the answer did not arrive
-  EXPECT_EQ(run("train shapes -o x.spincat --copies 0 --points 256 --spin-points 32", ">&- 2>&-").code, 1);
+  EXPECT_EQ(run("train shapes -o x.spincat --copies 0 --background 8 --points 256 --spin-points 32", ">&- 2>&-").code,
+            1);
   EXPECT_EQ(run("info x.spincat").code, 0);  // no message went into the model
 }
 
 TEST_F(Command, StrictMindsWhatTheDataSetItselfIsMissing) {
   make_shapes();
   dir_.write("list.csv", "path,category\nshapes/box/0.off,box\nshapes/cone/0.off,cone\nabsent.off,cone\n");
-  const std::string small = " --copies 0 --points 256 --spin-points 32";
+  const std::string small = " --copies 0 --background 8 --points 256 --spin-points 32";
   EXPECT_EQ(run("train list.csv -o x.spincat" + small).code, 0);
   const Result strict = run("train list.csv -o y.spincat --strict" + small);
   EXPECT_EQ(strict.code, 2);
@@ -447,7 +455,7 @@ TEST_F(Command, ACategoryThatIsOnlyTestedIsNamed) {
   make_shapes();
   dir_.write("list.csv",
              "path,category,split\nshapes/box/0.off,box,train\nshapes/cone/0.off,cone,train\nnew-cone.off,new,test\n");
-  const Result result = run("train list.csv -o x.spincat --copies 0 --points 256 --spin-points 32");
+  const Result result = run("train list.csv -o x.spincat --copies 0 --background 8 --points 256 --spin-points 32");
   EXPECT_EQ(result.code, 0);
   ASSERT_EQ(lines(result.err).size(), 2U) << result.err;
   EXPECT_NE(lines(result.err)[1].find("category 'new' has objects in the test split only"), std::string::npos);
@@ -455,7 +463,7 @@ TEST_F(Command, ACategoryThatIsOnlyTestedIsNamed) {
 
 TEST_F(Command, AModelOnStandardOutputIsNothingButTheModel) {
   make_shapes();
-  const Result model = run("train shapes -o /dev/stdout --copies 0 --points 256 --spin-points 32");
+  const Result model = run("train shapes -o /dev/stdout --copies 0 --background 8 --points 256 --spin-points 32");
   ASSERT_EQ(model.code, 0);
   dir_.write("piped.spincat", model.out);
   EXPECT_EQ(run("info piped.spincat").code, 0);
@@ -488,7 +496,7 @@ TEST_F(Command, CtrlCLeavesTheOldModelAndNothingElse) {
     kill(std::stoi(contents(pid_file)), SIGINT);
   });
   const std::string line = fmt::format(
-      "cd '{}' && sh -c 'echo $$ > shapes/pid; exec \"{}\" train shapes -o x.spincat --copies 100 "
+      "cd '{}' && sh -c 'echo $$ > shapes/pid; exec \"{}\" train shapes -o x.spincat --copies 100 --background 8 "
       "--points 20000' 2>.err",
       dir_.path().string(), SPINCAT_COMMAND);
   const int status = std::system(line.c_str());
@@ -621,7 +629,7 @@ TEST_F(Command, WhatTheUserChoosesHoldsBesideViews) {
   EXPECT_EQ(settings["image_width"], 16);
   EXPECT_EQ(settings["trained_for"], "views");
   const std::string text = run("info v.spincat").out;
-  for (const char* fact : {"views 2", "up y", "kernel linear", "c 200"}) {
+  for (const char* fact : {"views 2", "up y", "kernel linear", "c 10"}) {
     EXPECT_NE(text.find(fact), std::string::npos) << fact << "\n" << text;
   }
 }
@@ -651,7 +659,7 @@ TEST_F(Command, SweepMeasuresWhatTrainAndEvaluateDo) {
 
 TEST_F(Command, EverySettingIsAnOption) {
   const Json list = Json::parse(run("settings --json").out)["settings"];
-  EXPECT_EQ(list.size(), 25U);
+  EXPECT_EQ(list.size(), 28U);
   const std::string help = run("train --help").out;
   for (const Json& setting : list) {
     EXPECT_NE(help.find(setting["option"].get<std::string>() + " "), std::string::npos) << setting;
@@ -674,14 +682,14 @@ TEST_F(Command, DescribeWritesTheFeaturesOfManyObjects) {
   EXPECT_EQ(all.code, 2) << all.err;
   EXPECT_EQ(lines(all.err).size(), 1U) << all.err;
   const auto [header, numbers] = npy_parts(contents(dir_.path() / "all.npy"));
-  EXPECT_NE(header.find("(13, 9600, )"), std::string::npos) << header;
-  EXPECT_EQ(numbers.size(), 13U * 9600U * 4U);
+  EXPECT_NE(header.find("(13, 14400, )"), std::string::npos) << header;
+  EXPECT_EQ(numbers.size(), 13U * 14400U * 4U);
   const std::vector<std::string> names = lines(contents(dir_.path() / "all.csv"));
   ASSERT_EQ(names.size(), 14U);
   EXPECT_EQ(names[0], "row,path,kind");
   EXPECT_EQ(names[13], "12,new-cone.off,mesh");
   ASSERT_EQ(run("describe new-cone.off -o one.npy" + small).code, 0);
-  EXPECT_TRUE(npy_parts(contents(dir_.path() / "one.npy")).second == numbers.substr(12U * 9600U * 4U));
+  EXPECT_TRUE(npy_parts(contents(dir_.path() / "one.npy")).second == numbers.substr(12U * 14400U * 4U));
 }
 
 TEST_F(Command, DescribeRefusesInOneLine) {

@@ -119,7 +119,7 @@ struct Damage {
 TEST_F(DamagedFiles, DamageIsToldWithItsPlace) {
   make_shapes();
   dir_.write("m.spincat", contents(fs::path(SPINCAT_SOURCE_DIR) / "tests/fuzz/seeds/model/linear.spincat"));
-  const std::string small = " --copies 0 --points 64 --spin-points 8 ";
+  const std::string small = " --copies 0 --background 4 --points 64 --spin-points 8 ";
   const std::vector<Damage> damages = {
       {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 x\n0 1 0\n3 0 1 2\n", "info a.off", "line 4: expected a coordinate, found 'x'"},
       {"a.obj", "v 0 0 0\nv 1 0 0\nf 1 2 7\n", "info a.obj", "line 3: vertex index 7 is out of range"},
@@ -161,14 +161,15 @@ TEST_F(DamagedFiles, LimitsCanBeRaised) {
   EXPECT_EQ(run("info " + file + " --max-triangles 3").err,
             "spincat: " + file + ": holds more than 3 triangles; --max-triangles raises this limit\n");
   EXPECT_EQ(run("spin " + file + " -o a.npy --max-points 3").code, 2);
-  const std::string train = "train shapes -o m.spincat --strict --copies 0 --points 64 --spin-points 8 --max-points ";
+  const std::string train =
+      "train shapes -o m.spincat --strict --copies 0 --background 4 --points 64 --spin-points 8 --max-points ";
   EXPECT_NE(run(train + "3").err.find("holds more than 3 points"), std::string::npos);
   EXPECT_EQ(run(train + "4").code, 0);
   EXPECT_EQ(run("classify m.spincat " + file + " --max-triangles 3").err,
             "spincat: " + file + ": holds more than 3 triangles; --max-triangles raises this limit\n");
   EXPECT_EQ(run("classify m.spincat " + file).code, 0);
   const std::string evaluate =
-      "evaluate shapes --splits 2 --copies 0 --points 64 --spin-points 8 --strict --max-points ";
+      "evaluate shapes --splits 2 --copies 0 --background 4 --points 64 --spin-points 8 --strict --max-points ";
   EXPECT_NE(run(evaluate + "3").err.find("--max-points raises this limit"), std::string::npos);
   EXPECT_EQ(run(evaluate + "4").code, 0);
   EXPECT_EQ(run("info " + file + " --max-points 0").code, 2);

@@ -40,9 +40,10 @@ class HostileModel : public testing::Test {
       dir_.write(fmt::format("shapes/a/{}.xyz", i), fmt::format("0 0 0\n{} 0 0\n0 1 0\n0 0 1\n1 1 1\n", i + 1));
       dir_.write(fmt::format("shapes/b/{}.xyz", i), fmt::format("0 0 0\n9 0 {}\n0 1 0\n8 1 1\n7 2 1\n", i + 1));
     }
-    ASSERT_EQ(run(std::string(SPINCAT_COMMAND) +
-                  " train shapes -o good.spincat --copies 0 --points 64 --spin-points 8 --surface vertices"),
-              0)
+    ASSERT_EQ(
+        run(std::string(SPINCAT_COMMAND) +
+            " train shapes -o good.spincat --copies 0 --background 4 --points 64 --spin-points 8 --surface vertices"),
+        0)
         << contents(dir_ / "err");
     spincat::ModelData model = spincat::read_model(dir_ / "good.spincat").data();
     model.categories = {"\x1B[31m\x1B]0;title\x07 </script><script>alert(1)</script>", "../../../etc/passwd"};

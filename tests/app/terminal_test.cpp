@@ -40,7 +40,8 @@ class Terminal : public testing::Test {
     }
   }
 
-  const std::string small_ = " --copies 0 --points 200 --spin-points 16 --image-width 8 --bin-size 0.25 --threads 1";
+  const std::string small_ =
+      " --copies 0 --background 4 --points 200 --spin-points 16 --image-width 8 --bin-size 0.25 --threads 1";
   test::TempDir dir_;
 };
 

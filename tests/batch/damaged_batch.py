@@ -94,7 +94,7 @@ class Batch:
         self.program, self.folder, self.failures = program, folder, []
         make = random.Random(seed)
         object_files.write_data_set(folder / "shapes", 6)
-        small = ["--copies", "0", "--points", "256", "--spin-points", "32"]
+        small = ["--copies", "0", "--background", "4", "--points", "256", "--spin-points", "32"]
         subprocess.run([program, "train", "shapes", "-o", "x.spincat", *small], cwd=folder, check=True,
                        stdout=subprocess.DEVNULL)
         good, bad = make_files(folder / "batch", count, make)

@@ -28,7 +28,9 @@ Settings small_settings(const char* encoding, KernelKind kernel) {
   settings.words = 16;
   settings.encoding = encoding;
   settings.judge.kernel = kernel;
-  settings.judge.c = default_c(kernel);
+  settings.judge.dimensions = 0;
+  settings.judge.c = default_c(settings.judge);
+  settings.radial = false;
   settings.plain_samples = false;
   return settings;
 }

@@ -38,10 +38,10 @@ ModelData small_model() {
   model.judges.weights << 1.0F, -2.0F, 0.5F;
   model.judges.bias = Eigen::VectorXf::Constant(1, 0.25F);
   model.judges.support_vectors = {2};
-  model.calibration = {1.5, -0.2, 0.7};
-  FeatureMatrix objects(3, 3);
-  objects << 1, 2, 3, 4, 5, 6, 7, 8, 10;
-  model.familiarity = make_familiarity(objects, {0, 1, 0}, 2);
+  model.calibration = {1.5, -0.2};
+  model.judges.whitening =
+      Whitening(LearnedWhitening{FeatureMatrix::Identity(3, 4), Eigen::RowVectorXf::Constant(3, 0.5F)});
+  model.known.weights = Eigen::RowVectorXf::LinSpaced(3, 0.1F, -0.7F);
   model.dataset = "data";
   model.object_counts = {2, 1};
   model.kinds = {3, 0};
@@ -69,35 +69,13 @@ std::string problem_after(const std::function<void(Json&)>& change) {
 // All that naming an object does with a model once it has features.
 void use(const ModelData& model) {
   const std::vector<float> features(model.feature_length(), 0.5F);
-  const Ballot ballot = model.judges.vote(features);
+  const std::vector<float> seen = model.judges.seen(features);
+  const Ballot ballot = model.judges.vote_on(seen);
   ASSERT_LT(ballot.winner, model.categories.size());
-  const double familiarity = model.familiarity.of(features, ballot.winner);
-  const double confidence = model.calibration.confidence(ballot, familiarity);
-  EXPECT_TRUE(confidence >= 0.0 && confidence <= 1.0) << confidence;
-}
-
-TEST(HostileModel, FamiliarityThatDoesNotFitIsRefused) {
-  const auto problem_of = [](const char* name, const Json& value) {
-    return problem_after([&](Json& json) { json["familiarity"][name] = value; });
-  };
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  const float infinite = std::numeric_limits<float>::infinity();
-  EXPECT_EQ(problem_after([](Json&) {}), "no error");
-  EXPECT_EQ(problem_of("labels", Json::array({0, 1, 2})), "model: 'labels' names a category that is not there");
-  EXPECT_EQ(problem_of("labels", Json::array({0, 0, 0})), "model: 'labels' leaves a category without objects");
-  EXPECT_EQ(problem_of("labels", Json::array({0, -1, 0})), "model: 'labels' does not hold 3 counts");
-  EXPECT_EQ(problem_of("labels", Json::array({0, 1})), "model: 'objects' is of the wrong size");
-  EXPECT_EQ(problem_of("labels", "0"), "model: 'labels' is no list");
-  EXPECT_EQ(problem_of("objects", test::float_blob({})), "model: 'objects' is of the wrong size");
-  EXPECT_EQ(problem_of("objects", test::float_blob(std::vector<float>(12))), "model: 'objects' is of the wrong size");
-  EXPECT_EQ(problem_of("objects", test::float_blob({1, 2, 3, 4, nan, 6, 7, 8, 9})),
-            "model: 'objects' holds a number that is not finite");
-  EXPECT_EQ(problem_of("typical", test::float_blob({1})), "model: 'typical' does not hold 2 numbers");
-  EXPECT_EQ(problem_of("typical", test::float_blob({1, infinite})),
-            "model: 'typical' holds a number that is not finite");
-  EXPECT_EQ(problem_of("spread", test::float_blob({1, 0})), "model: 'spread' is not above zero");
-  EXPECT_EQ(problem_of("spread", test::float_blob({1, -1})), "model: 'spread' is not above zero");
-  EXPECT_EQ(problem_of("spread", test::float_blob({1, nan})), "model: 'spread' holds a number that is not finite");
+  for (const double p :
+       {model.calibration.probability(static_cast<double>(ballot.weakest_margin)), model.known.known(seen)}) {
+    EXPECT_TRUE(p >= 0.0 && p <= 1.0) << p;
+  }
 }
 
 // Whoever changes a bit and mends the checksum gets a model that is refused in a line, or one that can be used.
@@ -146,15 +124,21 @@ TEST(HostileModel, OneMadeForOtherCategoriesIsRefused) {
 
 TEST(HostileModel, OneMadeForOtherSettingsIsRefused) {
   EXPECT_EQ(problem_after([](Json& json) { json["settings"]["encoding"] = "bag-of-features"; }),
-            "the encoding bag-of-features knows no plain samples, no up axis and only one draw");
+            "the encoding bag-of-features knows no radial part, no plain samples, no up axis and only one draw");
   EXPECT_EQ(problem_after([](Json& json) { json["settings"]["encoding"] = "a\nb"; }),
             "setting 'encoding' is too long or not printable");
-  EXPECT_EQ(problem_after([](Json& json) { json["settings"]["kernel"] = "rbf"; }), "model: 'blocks' is missing");
+  EXPECT_EQ(problem_after([](Json& json) { json["settings"]["kernel"] = "rbf"; }),
+            "dimensions need the linear kernel: rbf compares the features themselves");
+  EXPECT_EQ(problem_after([](Json& json) {
+              json["settings"]["kernel"] = "rbf";
+              json["settings"]["dimensions"] = 0;
+            }),
+            "model: 'blocks' is missing");
   EXPECT_EQ(problem_after([](Json& json) { json["settings"].erase("views"); }), "setting 'views' is missing");
   // Settings and judges that do not belong together show when the first object is named.
   const Mesh mesh = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
   const std::string line = input_error([&] { classify(small_model(), mesh); });
-  EXPECT_NE(line.find("features where the model expects 3"), std::string::npos) << line;
+  EXPECT_NE(line.find("features where the model expects 4"), std::string::npos) << line;
 }
 
 // Sizes are compared with the bytes that are there before memory is taken for them.

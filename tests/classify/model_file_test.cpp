@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -38,12 +39,16 @@ ModelData small_model() {
   }
   model.judges.bias = Eigen::Vector3f(0.1F, -0.0F, std::numeric_limits<float>::denorm_min());
   model.judges.support_vectors = {4, 5, 6};
-  model.calibration = {1.0 / 3.0, -0.2, 0.7};
-  FeatureMatrix objects(4, 5);
-  for (Eigen::Index i = 0; i < 20; ++i) {
-    objects(i / 5, i % 5) = 0.3F * static_cast<float>(i % 7);
+  model.calibration = {1.0 / 3.0, -0.2};
+  FeatureMatrix map(5, 7);
+  for (Eigen::Index i = 0; i < 35; ++i) {
+    map(i / 7, i % 7) = 0.3F * static_cast<float>(i % 4) - 0.1F;
   }
-  model.familiarity = make_familiarity(objects, {0, 1, 2, 0}, 3);
+  model.judges.whitening = Whitening(LearnedWhitening{map, Eigen::RowVectorXf::LinSpaced(5, -1.0F, 1.1F)});
+  model.known.weights = Eigen::RowVectorXf::LinSpaced(5, 0.1F, -0.7F);
+  model.known.bias = 0.3F;
+  model.known.scaling = {1.5, 0.1};
+  model.known.least = 0.25;
   model.dataset = "a \"data\" set";
   model.object_counts = {7, 8, 9};
   model.kinds = {20, 4};
@@ -61,6 +66,9 @@ std::string bytes_of(const Model& model) {
 ModelData rbf_model() {
   ModelData model = small_model();
   model.settings.judge.kernel = KernelKind::rbf;
+  model.settings.judge.dimensions = 0;
+  model.judges.whitening = {};
+  model.known = {};
   model.judges.kernel = {KernelKind::rbf, {2, 3}, {0.5F, 0.0F}};
   model.judges.supports.resize(4, 5);
   model.judges.weights.resize(3, 4);
@@ -78,9 +86,12 @@ ModelData bag_model() {
   ModelData model = small_model();
   model.settings.encoding = "bag-of-features";
   model.settings.plain_samples = false;
+  model.settings.radial = false;
+  model.settings.judge.dimensions = 0;
+  model.judges.whitening = {};
+  model.known = {};
   model.judges.codebook.words.resize(5, 2);
   model.judges.codebook.words << 0, 1, 2, 3, 4, 5, 6, 7, 8, 9;
-  model.familiarity = {};  // local features are not compared object by object
   return model;
 }
 
@@ -127,17 +138,19 @@ TEST(ModelFile, RoundTripsExactly) {
   EXPECT_EQ(back.judges.support_vectors, model.judges.support_vectors);
   EXPECT_EQ(back.calibration.slope, model.calibration.slope);
   EXPECT_EQ(back.calibration.offset, model.calibration.offset);
-  EXPECT_EQ(back.calibration.familiarity_slope, model.calibration.familiarity_slope);
-  EXPECT_EQ(back.familiarity.objects, model.familiarity.objects);
-  EXPECT_EQ(back.familiarity.labels, model.familiarity.labels);
-  EXPECT_EQ(back.familiarity.typical, model.familiarity.typical);
-  EXPECT_EQ(back.familiarity.spread, model.familiarity.spread);
+  EXPECT_TRUE(std::ranges::equal(back.judges.whitening.columns.bits(), model.judges.whitening.columns.bits()));
+  EXPECT_EQ(back.judges.whitening.middle, model.judges.whitening.middle);
+  EXPECT_EQ(back.known.weights, model.known.weights);
+  EXPECT_EQ(back.known.bias, model.known.bias);
+  EXPECT_EQ(back.known.scaling.slope, model.known.scaling.slope);
+  EXPECT_EQ(back.known.scaling.offset, model.known.scaling.offset);
+  EXPECT_EQ(back.known.least, model.known.least);
   EXPECT_EQ(back.dataset, model.dataset);
   EXPECT_EQ(back.object_counts, model.object_counts);
   EXPECT_EQ(back.kinds.meshes, model.kinds.meshes);
   EXPECT_EQ(back.kinds.clouds, model.kinds.clouds);
   EXPECT_EQ(back.made_by, model.made_by);
-  EXPECT_EQ(back.feature_length(), 5U);
+  EXPECT_EQ(back.feature_length(), 7U);
   EXPECT_EQ(bytes_of(back), bytes_of(model));
 }
 
@@ -169,10 +182,10 @@ TEST(ModelFile, WhatIsNoModelIsRefused) {
 }
 
 TEST(ModelFile, AnotherVersionIsNamed) {
-  EXPECT_EQ(problem_with(test::record_bytes("model", 1, small_content())),
-            "was written by an older spincat (model format 1, this one reads from 2 on)");
-  EXPECT_EQ(problem_with(test::record_bytes("model", 3, small_content())),
-            "was written by a newer spincat (model format 3, this one reads up to 2)");
+  EXPECT_EQ(problem_with(test::record_bytes("model", 2, small_content())),
+            "was written by an older spincat (model format 2, this one reads from 3 on)");
+  EXPECT_EQ(problem_with(test::record_bytes("model", 4, small_content())),
+            "was written by a newer spincat (model format 4, this one reads up to 3)");
 }
 
 TEST(ModelFile, AMissingMemberIsNamed) {
@@ -345,6 +358,42 @@ TEST(ModelFile, HostileSettingsAreRefused) {
   EXPECT_EQ(problem_after([](Json& json) { json["settings"]["points"] = -1; }), "points -1: expected 1 to 10,000,000");
   EXPECT_EQ(problem_after([](Json& json) { json["settings"]["points"] = 10'000'000; }),
             "10000256 points and spin points over all draws: judges take at most 4000000 of an object");
+}
+
+TEST(ModelFile, AHostileSpaceIsRefused) {
+  const auto problem_of = [](const char* name, const Json& value) {
+    return problem_after([&](Json& json) { json["judges"][name] = value; });
+  };
+  const auto halves = [](std::size_t count, std::uint8_t high) {
+    Json::binary_t::container_type bytes(2 * count);
+    for (std::size_t i = 1; i < bytes.size(); i += 2) {
+      bytes[i] = high;
+    }
+    return Json::binary(std::move(bytes));
+  };
+  EXPECT_EQ(problem_of("map", halves(35, 0x3C)), "no error");
+  EXPECT_EQ(problem_of("map", halves(34, 0x3C)), "model: 'map' is of the wrong size");
+  EXPECT_EQ(problem_of("map", halves(35, 0x7C)), "model: 'map' holds a number that is not finite");
+  EXPECT_EQ(problem_of("inputs", 6), "model: 'map' is of the wrong size");
+  EXPECT_EQ(problem_of("inputs", ~std::uint64_t{0}), "model: 'map' is of the wrong size");
+  EXPECT_EQ(problem_of("inputs", -7), "model: 'map' is of the wrong size");
+  EXPECT_EQ(problem_of("middle", test::float_blob({1, 2})), "model: 'middle' does not hold 5 numbers");
+  EXPECT_EQ(problem_after([](Json& json) { json["judges"].erase("map"); }),
+            "model: a space that judges learn in is missing");
+  EXPECT_EQ(problem_after([](Json& json) { json["settings"]["dimensions"] = 0; }),
+            "model: a space that judges learn in is not expected");
+}
+
+TEST(ModelFile, AHostileJudgeOfStrangersIsRefused) {
+  const auto problem_of = [](const char* name, const Json& value) {
+    return problem_after([&](Json& json) { json["known"][name] = value; });
+  };
+  EXPECT_EQ(problem_of("weights", test::float_blob({1, 2})), "model: 'weights' does not hold 5 numbers");
+  EXPECT_EQ(problem_of("least", 1.5), "model: 'known' holds a number out of range");
+  EXPECT_EQ(problem_of("least", std::numeric_limits<double>::quiet_NaN()),
+            "model: 'known' holds a number out of range");
+  EXPECT_EQ(problem_of("bias", 1e37), "model: 'known' holds a number out of range");
+  EXPECT_EQ(problem_of("scaling", Json(1)), "model: 'slope' is missing");
 }
 
 TEST(IsModelFile, LooksAtTheFirstBytes) {

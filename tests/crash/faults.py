@@ -121,7 +121,7 @@ class Faults(unittest.TestCase):
                 self.tearDown()
 
     def test_a_reader_that_has_gone(self):
-        small = f"--splits 2 --copies 0 {SMALL}"
+        small = f"--splits 2 --copies 0 --background 4 {SMALL}"
         for arguments in ("info small.spincat", "info ball.off --json", "--help", "classify small.spincat many",
                           f"evaluate shapes --json {small}", f"sweep shapes --vary c=1,10 {small}",
                           "camera small.spincat frames --quiet"):
@@ -159,10 +159,10 @@ class Faults(unittest.TestCase):
     def test_two_runs_that_write_one_file(self):
         models = {}
         for seed in (1, 2):
-            self.assertEqual(self.run_command(f"train shapes -o x.spincat --seed {seed} --copies 0 {SMALL}")[0], 0)
+            self.assertEqual(self.run_command(f"train shapes -o x.spincat --seed {seed} --copies 0 --background 4 {SMALL}")[0], 0)
             models[seed] = (self.data / "x.spincat").read_bytes()
         for _ in range(10 if FULL else 2):
-            both = [self.start(f"train shapes -o x.spincat --seed {seed} --copies 0 {SMALL}") for seed in (1, 2)]
+            both = [self.start(f"train shapes -o x.spincat --seed {seed} --copies 0 --background 4 {SMALL}") for seed in (1, 2)]
             for process in both:
                 process.communicate()
                 self.assertEqual(process.returncode, 0)
@@ -170,7 +170,7 @@ class Faults(unittest.TestCase):
             self.assertEqual(self.left(), {"x.spincat"})
 
     def test_two_runs_that_write_one_report_or_one_array(self):
-        evaluate = [f"evaluate shapes --report e.html --splits {n} --copies 0 {SMALL}" for n in (1, 2)]
+        evaluate = [f"evaluate shapes --report e.html --splits {n} --copies 0 --background 4 {SMALL}" for n in (1, 2)]
         spin = [f"spin ball.off -o s.npy --image-width {n} --threads 1" for n in (8, 12)]
         for commands, results in ((evaluate, JOBS["evaluate"].results), (spin, ["s.npy"])):
             whole = {}
@@ -299,9 +299,9 @@ def on_small_disk(disk, data):
                             job.results)
     small.check_results("classify", f"classify small.spincat ball.off --report {disk}/c.html", ["c.html"])
     small.check_results("info", f"info ball.off --report {disk}/i.html", ["i.html"])
-    sweep = f"sweep shapes --vary c=1,10 --splits 2 --copies 0 {SMALL} -o {disk}/w.json"
+    sweep = f"sweep shapes --vary c=1,10 --splits 2 --copies 0 --background 4 {SMALL} -o {disk}/w.json"
     small.check_results("sweep", sweep, ["w.json"], empty=["w.json.journal"])
-    evaluate = f"evaluate shapes --splits 2 --copies 1 {SMALL} --journal {disk}/e.journal"
+    evaluate = f"evaluate shapes --splits 2 --copies 1 --background 4 {SMALL} --journal {disk}/e.journal"
     for room in (0, 64, 128, 256, 512) if FULL else (0, 256):
         small.check_journal(f"a journal with {room} kB", evaluate, room, goes_on=room >= 256)
     small.check_journal("a sweep's journal", sweep, 0)

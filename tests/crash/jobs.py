@@ -23,12 +23,12 @@ class Job:
 
 JOBS = {
     "train": Job(f"train shapes -o x.spincat --journal t.journal --copies 2 {SMALL}", ["x.spincat"], "t.journal"),
-    "evaluate": Job(f"evaluate shapes --splits 4 --report e.html --json --journal e.journal --copies 1 {SMALL}",
+    "evaluate": Job(f"evaluate shapes --splits 4 --report e.html --json --journal e.journal --copies 1 --background 4 {SMALL}",
                     ["e.html", "e.confusion.svg", "e.confusion.png"], "e.journal"),
     "spin": Job("spin ball.off -o s.npy --points-output p.npy --journal s.journal --threads 2", ["s.npy", "p.npy"],
                 "s.journal"),
     "sheet": Job("spin ball.off -o s.png --sheet 400 --threads 2", ["s.png"]),
-    "sweep": Job(f"sweep shapes --vary c=1,10,100 -o w.json --splits 2 --copies 0 {SMALL}", ["w.json", "w.json.journal"],
+    "sweep": Job(f"sweep shapes --vary c=1,10,100 -o w.json --splits 2 --copies 0 --background 4 {SMALL}", ["w.json", "w.json.journal"],
                  "w.json.journal"),
     "camera": Job("camera small.spincat frames --record seen --quiet --threads 1", [], recording="seen"),
 }
@@ -64,7 +64,7 @@ def make_data(folder, program):
     object_files.write_data_set(folder / "shapes", 6)
     (folder / "ball.off").write_bytes(object_files.off(*object_files.lathe(1, 1.5, 0.4, 48, 60)))
     write_frames(folder / "frames")
-    subprocess.run([program, *f"train shapes -o small.spincat --copies 0 {SMALL}".split()], cwd=folder, check=True,
+    subprocess.run([program, *f"train shapes -o small.spincat --copies 0 --background 4 {SMALL}".split()], cwd=folder, check=True,
                    stdout=subprocess.DEVNULL)
 
 

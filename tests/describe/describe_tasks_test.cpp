@@ -126,7 +126,8 @@ TEST_F(ListedObjects, MustBeRegularFilesToBeTested) {
   }
   const Settings settings = test::tiny_settings();
   const std::size_t length = test::describe_copy(test::box(), settings, 0).values.size();
-  EXPECT_EQ(describe_tested(objects, length, settings, {}, {.threads = 2}).problems, problems_);
+  EXPECT_EQ(describe_tested(objects, {}, static_cast<Eigen::Index>(length), settings, {}, {.threads = 2}).problems,
+            problems_);
 }
 
 }  // namespace

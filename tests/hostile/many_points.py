@@ -81,7 +81,7 @@ def main():
     folder.mkdir(parents=True)
     object_files.write_data_set(folder / "shapes", 6)
     for name, options in MODELS.items():
-        line = [program, "train", "shapes", "-o", f"{name}.spincat", "--copies", "1", *options.split()]
+        line = [program, "train", "shapes", "-o", f"{name}.spincat", "--copies", "1", "--background", "4", *options.split()]
         subprocess.run(line, cwd=folder, check=True, stdout=subprocess.DEVNULL)
     count = write_ball(folder / "cloud.ply", points, False)
     write_ball(folder / "mesh.ply", points, True)

@@ -100,17 +100,17 @@ TEST(TrainingSet, ClassWeightsKeepALargeCategoryFromOutvotingASmallOne) {
       ++moved;
     }
   }
-  const Judge weighed = train(x, labels, {KernelKind::linear, 200.0, true});
+  const Judge weighed = train(x, labels, {.c = 200.0});
   EXPECT_NEAR(weight(weighed, x), 1.0, kSolved);
   EXPECT_NEAR(weighed.bias, 0.0, kSolved);
-  const Judge counted = train(x, labels, {KernelKind::linear, 200.0, false});
+  const Judge counted = train(x, labels, {.c = 200.0, .class_weights = false});
   EXPECT_NEAR(weight(counted, x) + counted.bias, -1.0, kSolved);
   EXPECT_NEAR(-weight(counted, x) + counted.bias, -1.0, kSolved);
 }
 
 TEST(TrainingSet, PricesAreCTimesAllObjectsByThoseOfTheCategory) {
   // Both at one place: the multipliers reach the smaller price. Three objects, two categories: 3/2 and 3/4 of C.
-  const Judge judge = train({1, 1, 1}, {0, 1, 1}, {KernelKind::linear, 4.0, true});
+  const Judge judge = train({1, 1, 1}, {0, 1, 1}, {.c = 4.0});
   EXPECT_EQ(judge.rows.size(), 3U);
   // Balanced, the two sides pull equally, at twice C 3/4: the weight is 1 * 6 - 1 * 6.
   EXPECT_NEAR(weight(judge, {1, 1, 1}), 0.0, kSolved);
@@ -143,7 +143,7 @@ struct ThreeClouds {
     const TrainingSet training(features, shared_gram, fit_kernel(kind, kBlocks, features, rows), labels, rows, 3);
     std::vector<Judge> trained;
     for (const CategoryPair pair : all_pairs(3)) {
-      trained.push_back(training.train(pair, {kind, default_c(kind), true}));
+      trained.push_back(training.train(pair, {.kernel = kind, .c = default_c({.kernel = kind})}));
     }
     return training.list(trained);
   }
@@ -158,7 +158,7 @@ TEST(TrainingSet, TellsMarginsWithoutFolding) {
                                clouds.labels, clouds.rows, 3);
     std::vector<Judge> trained;
     for (const CategoryPair pair : all_pairs(3)) {
-      trained.push_back(training.train(pair, {kind, default_c(kind), true}));
+      trained.push_back(training.train(pair, {.kernel = kind, .c = default_c({.kernel = kind})}));
     }
     const std::vector<std::uint32_t> rows = {44, 0, 7};
     std::vector<std::span<const float>> objects;
@@ -232,7 +232,7 @@ TEST(JudgeList, RbfVotesAsTheSupportVectorsDo) {
   EXPECT_EQ(judges.feature_length(), 8U);
   EXPECT_LE(judges.supports.rows(), 30);  // each training object once, however many judges lean on it
   for (std::size_t l = 0; l < pairs.size(); ++l) {
-    const Judge judge = training.train(pairs[l], {KernelKind::rbf, default_c(KernelKind::rbf), true});
+    const Judge judge = training.train(pairs[l], {.kernel = KernelKind::rbf, .c = 3.0});
     ASSERT_EQ(judge.rows.size(), judges.support_vectors[l]);
     for (std::uint32_t i = 0; i < 45; ++i) {
       double margin = judge.bias;
@@ -262,7 +262,7 @@ TEST(JudgeList, RbfTellsARingFromItsMiddle) {
     const GramMatrices none;
     const TrainingSet training(features, none, fit_kernel(kind, std::vector<std::uint32_t>{2}, features, rows), labels,
                                rows, 2);
-    const JudgeList judges = training.list(std::vector<Judge>{training.train({0, 1}, {kind, 200.0, true})});
+    const JudgeList judges = training.list(std::vector<Judge>{training.train({0, 1}, {.kernel = kind, .c = 200.0})});
     int count = 0;
     for (const std::uint32_t row : rows) {
       count += judges.vote({features.row(row).data(), 2}).winner == labels[row] ? 1 : 0;
@@ -284,9 +284,7 @@ TEST(JudgeList, NamesWhatItLearntFrom) {
 }
 
 TEST(JudgeSettings, AreRefusedOutOfRange) {
-  const auto error = [](double c) {
-    return test::input_error([&] { JudgeSettings{KernelKind::linear, c, true}.validate(); });
-  };
+  const auto error = [](double c) { return test::input_error([&] { JudgeSettings{.c = c}.validate(); }); };
   EXPECT_EQ(error(0.0), "c 0: expected a number above 0");
   EXPECT_EQ(error(-1.0), "c -1: expected a number above 0");
   EXPECT_EQ(error(std::numeric_limits<double>::infinity()), "c inf: expected a number above 0");

@@ -9,6 +9,8 @@
 namespace spincat::test {
 namespace {
 
+const std::string kSmall = "--background 8 --copies 1 --spin-points 128";  // the runs are many
+
 class BrokenLinks : public Launching, public testing::WithParamInterface<Mpi> {
  protected:
   void SetUp() override {
@@ -16,7 +18,7 @@ class BrokenLinks : public Launching, public testing::WithParamInterface<Mpi> {
       GTEST_SKIP() << reason;
     }
     make_dataset(12);
-    ASSERT_EQ(alone("train boxes --threads 1 -o alone.spincat").code, 0);
+    ASSERT_EQ(alone("train boxes --threads 1 -o alone.spincat " + kSmall).code, 0);
   }
 
   RunResult run_with(const std::string& failure, const std::string& arguments, const std::string& environment = "") {
@@ -29,7 +31,8 @@ class BrokenLinks : public Launching, public testing::WithParamInterface<Mpi> {
     return result;
   }
 
-  RunResult train_with(const std::string& failure, const std::string& more = "", const std::string& environment = "") {
+  RunResult train_with(const std::string& failure, const std::string& more = kSmall,
+                       const std::string& environment = "") {
     fs::remove(dir_.path() / "ranks.spincat");
     RunResult result = run_with(failure, "train boxes --threads 1 -o ranks.spincat " + more, environment);
     EXPECT_TRUE(has_come(failure)) << failure << " did not come";
@@ -62,7 +65,7 @@ TEST_P(BrokenLinks, CostNothingButTime) {
 // What all ranks need to train: the table, the inner products, the trainings, and whether a rank is ready for them.
 TEST_P(BrokenLinks, WhileOtherRanksTrainCostNothingButTime) {
   constexpr int kObjects = 36;
-  const std::string small = "--copies 1 --points 256 --spin-points 32";
+  const std::string small = "--copies 1 --dimensions 0 --points 256 --spin-points 32";
   ASSERT_EQ(alone("train boxes --threads 1 -o alone.spincat " + small).code, 0);
   const std::vector<std::tuple<int, farm::Tag, int>> failures = {
       {0, farm::kJob, 3},                   // two ranks were told to describe objects: the table

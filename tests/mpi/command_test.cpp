@@ -74,7 +74,7 @@ TEST_P(UnderMpi, BothDivisionsGiveTheSameFeatures) {
 
 TEST_P(UnderMpi, ModelsAreTheSameBytes) {
   make_dataset(5);
-  const std::string small = "--copies 1 --points 256 --spin-points 32 ";
+  const std::string small = "--copies 1 --background 8 --points 256 --spin-points 32 ";
   ASSERT_EQ(alone("train boxes -o alone.spincat " + small).code, 0);
   const std::string expected = bytes("alone.spincat");
   ASSERT_GT(expected.size(), 1'000U);
@@ -89,7 +89,8 @@ TEST_P(UnderMpi, ModelsAreTheSameBytes) {
 TEST_P(UnderMpi, ModelsThatOtherRanksTrainAreTheSameBytes) {
   make_dataset(5);
   for (const std::string kernel : {"linear", "rbf"}) {
-    const std::string small = "--threads 1 --copies 1 --points 256 --spin-points 32 --kernel " + kernel;
+    const std::string small = "--threads 1 --copies 1 --points 256 --spin-points 32 --kernel " + kernel +
+                              (kernel == "linear" ? " --background 8" : "");
     ASSERT_EQ(alone("train boxes -o alone.spincat " + small).code, 0);
     for (const int ranks : kernel == "linear" ? std::vector<int>{2, 3, 4, 7} : std::vector<int>{3}) {
       run_elsewhere(ranks, "train boxes -o ranks.spincat " + small,
@@ -101,7 +102,7 @@ TEST_P(UnderMpi, ModelsThatOtherRanksTrainAreTheSameBytes) {
 
 TEST_P(UnderMpi, EvaluationsAndNamesAreTheSame) {
   make_dataset(5);
-  const std::string small = " --copies 1 --points 256 --spin-points 32";
+  const std::string small = " --copies 1 --background 8 --points 256 --spin-points 32";
   const auto without_times = [](const std::string& text) {
     std::string kept;
     std::istringstream lines(text);

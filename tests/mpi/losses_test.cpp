@@ -211,14 +211,15 @@ TEST_P(Losses, UnderMpichTheSameCommandGoesOn) {
 }
 
 const Task kSpin{"spin", "spin scan.off --image-width 32 --threads 1", ".npy"};
-const Task kTrain{"train", "train boxes --threads 1", ".spincat"};
+const Task kTrain{"train", "train boxes --threads 1 --copies 2 --background 40", ".spincat"};
 const auto kName = [](const auto& task) { return task.param.name; };
 
 INSTANTIATE_TEST_SUITE_P(Tasks, LossOfTheFirst, testing::Values(kSpin, kTrain), kName);
 INSTANTIATE_TEST_SUITE_P(
     Tasks, Losses,
-    testing::Values(kSpin, kTrain, Task{"images", "train boxes --divide images --copies 1 --threads 1", ".spincat"},
-                    Task{"dense", "train boxes --spin-points 4096 --copies 1 --threads 1", ".spincat"}),
+    testing::Values(kSpin, kTrain,
+                    Task{"images", "train boxes --divide images --copies 1 --background 8 --threads 1", ".spincat"},
+                    Task{"dense", "train boxes --spin-points 4096 --copies 1 --background 8 --threads 1", ".spincat"}),
     kName);
 
 }  // namespace

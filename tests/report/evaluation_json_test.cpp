@@ -104,11 +104,13 @@ TEST(EvaluationJson, OfAnotherDataSetNamesBoth) {
 
 TEST(EvaluationJson, TellsWhatTheConfidenceTells) {
   Evaluation e = two_categories();
-  e.confidence = ConfidenceMeasure{0.875, 0.75, 0.5, 0};
-  EXPECT_EQ(json_of(e)["confidence"].dump(), R"({"mean":0.5,"right_or_wrong_auc":0.875})");
+  e.confidence = ConfidenceMeasure{0.875, 0.75, 0.5, 0, 0.25, 0.625};
+  EXPECT_EQ(json_of(e)["confidence"].dump(), R"({"mean":0.5,"right_or_wrong_auc":0.875,"turned_away":0.25})");
   e.confidence->unknown_objects = 7;
-  EXPECT_EQ(json_of(e)["confidence"].dump(),
-            R"({"mean":0.5,"right_or_wrong_auc":0.875,"known_or_unknown_auc":0.75,"unknown_objects":7})");
+  EXPECT_EQ(
+      json_of(e)["confidence"].dump(),
+      R"({"mean":0.5,"right_or_wrong_auc":0.875,"turned_away":0.25,"known_or_unknown_auc":0.75,"unknown_objects":7,)"
+      R"("unknown_objects_turned_away":0.625})");
 }
 
 TEST(EvaluationJson, OfNothingIsEmptyLists) {

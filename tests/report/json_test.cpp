@@ -44,23 +44,25 @@ Classification chair() {
   Classification c;
   c.ballot = count_votes(2, std::vector<float>{-0.5F});
   c.confidence = 0.75;
+  c.known = 0.875;
   c.seconds = {0.001, 0.002, 0.003, 0.004, 0.005};
   return c;
 }
 
 TEST(ClassificationJson, HasThePromisedKeys) {
   const Json json = parsed(classification_json("a.obj", chair(), two_categories(), false));
-  EXPECT_EQ(keys_of(json), (Keys{"file", "category", "confidence", "votes", "milliseconds"}));
+  EXPECT_EQ(keys_of(json), (Keys{"file", "category", "confidence", "known", "votes", "milliseconds"}));
   EXPECT_EQ(json["file"], "a.obj");
   EXPECT_EQ(json["category"], "chair \"x\"");
   EXPECT_EQ(json["confidence"], 0.75);
+  EXPECT_EQ(json["known"], 0.875);
   EXPECT_EQ(json["votes"], (Json{{"bed", 0}, {"chair \"x\"", 1}}));
   EXPECT_NEAR(json["milliseconds"].get<double>(), 15.0, 1e-9);
 }
 
 TEST(ClassificationJson, TellsEveryJudgesWord) {
   const Json json = parsed(classification_json("a.obj", chair(), two_categories(), true));
-  EXPECT_EQ(keys_of(json), (Keys{"file", "category", "confidence", "votes", "milliseconds", "judges"}));
+  EXPECT_EQ(keys_of(json), (Keys{"file", "category", "confidence", "known", "votes", "milliseconds", "judges"}));
   ASSERT_EQ(json["judges"].size(), 1U);
   EXPECT_EQ(json["judges"][0], (Json{{"a", "bed"}, {"b", "chair \"x\""}, {"vote", "chair \"x\""}, {"margin", -0.5}}));
 }
@@ -74,7 +76,7 @@ TEST(ClassificationJson, SaysWhereTheJudgesWereNotTrainedForTheObject) {
 
 TEST(ClassificationJson, OfARejectedNameIsUnknown) {
   const Json json = parsed(classification_json("a.obj", chair(), two_categories(), false, true));
-  EXPECT_EQ(keys_of(json), (Keys{"file", "category", "confidence", "votes", "milliseconds", "best_guess"}));
+  EXPECT_EQ(keys_of(json), (Keys{"file", "category", "confidence", "known", "votes", "milliseconds", "best_guess"}));
   EXPECT_EQ(json["category"], "unknown");
   EXPECT_EQ(json["best_guess"], "chair \"x\"");
 }

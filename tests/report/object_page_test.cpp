@@ -166,7 +166,7 @@ TEST(ClassificationPage, HoldsTheAnswersAndWhereTheirEvidenceLies) {
   EXPECT_EQ(part["evidence"]["winner"], found.ballot.winner);
   EXPECT_EQ(numbers_of<std::int16_t>(part["margins"]["values"])[0],
             std::lround(1000.0 * static_cast<double>(found.ballot.votes[0].margin)));
-  ASSERT_EQ(part["evidence"]["parts"].size(), 2U);
+  ASSERT_EQ(part["evidence"]["parts"].size(), 3U);
   const Json& first = part["evidence"]["parts"][0];
   EXPECT_EQ(numbers_of<std::int16_t>(first["points"]).size(), 3U * 24U);
   const auto values = numbers_of<std::int16_t>(first["values"]);

@@ -190,7 +190,7 @@ TEST(EvaluationText, FitsEightyColumnsHoweverLongTheNames) {
   e.protocol = Protocol::across;
   e.test_dataset = "a folder with quite a long name/and another one below it/of objects";
   e.test_object_counts = {1, 2, 3};
-  e.confidence = ConfidenceMeasure{0.9, 0.8, 0.7, 5};
+  e.confidence = ConfidenceMeasure{0.9, 0.8, 0.7, 5, 0.02, 0.7};
   for (std::size_t n = 3; n < 40; ++n) {
     EXPECT_LE(widest_line(evaluation_text(e, 80)), 80U) << n << " categories\n" << evaluation_text(e, 80);
     e.categories.push_back(std::string(30, 'c') + std::to_string(n));
@@ -253,10 +253,13 @@ TEST(EvaluationText, OfAnotherDataSetHasNoSpread) {
 
 TEST(EvaluationText, TellsWhatTheConfidenceTells) {
   Evaluation e = three_categories();
-  e.confidence = ConfidenceMeasure{0.9, 0.8, 0.7, 0};
+  e.confidence = ConfidenceMeasure{0.9, 0.8, 0.7, 0, 0.02, 0.7};
   EXPECT_NE(last_lines(e).find("confidence       0.700 on average; area under the curve 0.900 for right or wrong\n"),
             std::string::npos);
+  EXPECT_NE(last_lines(e).find("turned away      2.0 % of the tested objects\n"), std::string::npos);
   e.confidence->unknown_objects = 5;
+  EXPECT_NE(last_lines(e).find("turned away      2.0 % of the tested objects, 70.0 % of the unknown objects\n"),
+            std::string::npos);
   EXPECT_NE(last_lines(e).find("0.900 for right or wrong, 0.800 for known or unknown (5 unknown objects)\n"),
             std::string::npos);
 }
@@ -315,7 +318,7 @@ TEST(ModelText, SaysWhatWasLearnt) {
   EXPECT_LE(widest_line(model_text(model, 60)), 60U);
   EXPECT_GT(widest_line(text), 60U);
   for (const char* part : {"spincat 0.1.0", "furniture", "bed (9), chair? (69)", "1 of 4800 features",
-                           "angle test soft", "seed 1", "copies 6", "kernel linear, c 200"}) {
+                           "angle test soft", "seed 1", "copies 6", "kernel linear, dimensions 200, c 10"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
   }
 }

@@ -31,7 +31,7 @@ TEST(SettingTable, EveryNameAndOptionIsThereOnce) {
     EXPECT_FALSE(setting.help.empty()) << setting.name;
     EXPECT_EQ(&find_setting(setting.name), &setting);
   }
-  EXPECT_EQ(names.size(), 25U);
+  EXPECT_EQ(names.size(), 28U);
 }
 
 TEST(SettingTable, TextRoundTrips) {
@@ -95,7 +95,12 @@ TEST(SettingChoices, WhatTheUserChoosesHoldsBesideViews) {
 
 TEST(SettingChoices, AKernelBringsItsC) {
   EXPECT_EQ(chosen({{"kernel", "rbf", ""}}).judge.c, 3.0);
-  EXPECT_EQ(chosen({{"kernel", "linear", ""}}).judge.c, 200.0);
+  EXPECT_EQ(chosen({{"kernel", "rbf", ""}}).judge.dimensions, 0);
+  EXPECT_EQ(chosen({{"kernel", "linear", ""}}).judge.c, 10.0);
+  EXPECT_EQ(chosen({{"dimensions", "0", ""}}).judge.c, 200.0);
+  EXPECT_EQ(chosen({{"dimensions", "50", ""}}, "paper").judge.c, 10.0);
+  EXPECT_EQ(refusal({{"dimensions", "50", ""}, {"kernel", "rbf", ""}}),
+            "dimensions need the linear kernel: rbf compares the features themselves");
   EXPECT_EQ(chosen({{"c", "10", ""}, {"kernel", "rbf", ""}}).judge.c, 10.0);
   EXPECT_EQ(chosen({{"kernel", "rbf", ""}, {"c", "10", ""}}).judge.c, 10.0);
 }
@@ -103,9 +108,12 @@ TEST(SettingChoices, AKernelBringsItsC) {
 TEST(SettingChoices, AnEncodingOfLocalFeaturesStandsAlone) {
   const Settings s = chosen({{"encoding", "bag-of-features", ""}});
   EXPECT_FALSE(s.plain_samples);
+  EXPECT_FALSE(s.radial);
+  EXPECT_EQ(s.judge.dimensions, 0);
+  EXPECT_EQ(s.judge.c, 200.0);
   EXPECT_EQ(s.draws, 1);
   EXPECT_EQ(refusal({{"encoding", "bag-of-features", ""}, {"draws", "3", ""}}),
-            "the encoding bag-of-features knows no plain samples, no up axis and only one draw");
+            "the encoding bag-of-features knows no radial part, no plain samples, no up axis and only one draw");
 }
 
 TEST(SettingChoices, AskingForAnAngleMeansTheHardOne) {
@@ -121,8 +129,8 @@ TEST(SettingChoices, WhatHasNoEffectIsRefused) {
             "--copies 3: has no effect: judges that learn by views are shown no copies");
   EXPECT_EQ(refusal({{"stretch", "0.1", ""}}, "paper"),
             "stretch 0.1: has no effect: there are no copies (copies is 0)");
-  EXPECT_EQ(refusal({{"trained_for", "any", ""}}, "paper"),
-            "trained_for any: has no effect: there are no copies (copies is 0)");
+  EXPECT_EQ(refusal({{"background", "9", ""}, {"dimensions", "0", ""}}),
+            "background 9: has no effect: strangers are told in the small space of judges alone (dimensions is 0)");
   EXPECT_EQ(refusal({{"words", "64", ""}}), "words 64: has no effect: the encoding pooled-pyramid learns no codebook");
   EXPECT_EQ(refusal({{"points", "64", ""}}, "paper"),
             "points 64: has no effect: all vertices are taken with surface vertices");

@@ -31,17 +31,19 @@ Settings unusual() {
   s.spin.support_angle = 77.7;
   s.bin_size_unit = BinSizeUnit::resolution;
   s.encoding = "concatenation";
+  s.radial = true;
   s.plain_samples = true;
   s.up = UpAxis::y;
   s.draws = 3;
   s.trained_for = TrainedFor::any;
   s.words = 99;
-  s.judge.kernel = KernelKind::rbf;
+  s.judge.dimensions = 33;
   s.judge.c = 1.0 / 3.0;
   s.judge.class_weights = false;
   s.copies = 2;
   s.views = 7;
   s.stretch = 0.125;
+  s.background = 5;
   s.seed = std::numeric_limits<std::uint64_t>::max();
   return s;
 }
@@ -76,7 +78,10 @@ TEST(SettingsJson, RoundTripsEveryField) {
   EXPECT_EQ(back.spin.support_angle, s.spin.support_angle);
   EXPECT_EQ(back.bin_size_unit, s.bin_size_unit);
   EXPECT_EQ(back.encoding, s.encoding);
+  EXPECT_EQ(back.radial, s.radial);
   EXPECT_EQ(back.plain_samples, s.plain_samples);
+  EXPECT_EQ(back.judge.dimensions, s.judge.dimensions);
+  EXPECT_EQ(back.background, s.background);
   EXPECT_EQ(back.up, s.up);
   EXPECT_EQ(back.draws, s.draws);
   EXPECT_EQ(back.trained_for, s.trained_for);
@@ -130,7 +135,7 @@ TEST(SettingsJson, RoundTripsEveryChoice) {
 
 TEST(SettingsJson, NamesAMissingField) {
   const Json whole = json_of(preset("default"));
-  EXPECT_EQ(whole.size(), 26U);
+  EXPECT_EQ(whole.size(), 29U);
   for (const auto& [field, value] : whole.items()) {
     Json json = whole;
     json.erase(field);

@@ -20,7 +20,9 @@ inline Settings tiny_settings() {
   settings.spin.image_width = 8;
   settings.spin.bin_size = 0.25;
   settings.plain_samples = false;
+  settings.radial = false;
   settings.copies = 1;
+  settings.background = 12;
   return settings;
 }
 

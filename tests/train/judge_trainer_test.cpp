@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <mutex>
 #include <numeric>
@@ -30,14 +31,15 @@ namespace {
 constexpr std::size_t kWorthBroadcasting = 1'000'000'000;  // so much work that a tiny table is sent
 
 // 30 objects of three categories, each with a copy; 24 features in blocks of 8, or as three local features.
-FeatureTable noisy_table(bool local) {
+FeatureTable noisy_table(bool local, std::uint32_t background_rows = 0) {
   FeatureTable table;
   table.categories = {"a", "b", "c"};
   table.rows_per_object = 2;
   table.blocks = {8, 8, 8};
   table.local_size = local ? 8 : 0;
   table.words = 4;
-  table.features.resize(60, 24);
+  table.background_rows = background_rows;
+  table.features.resize(60 + background_rows, 24);
   Random random(5);
   for (std::uint32_t i = 0; i < 30; ++i) {
     table.objects.push_back({"object", i % 3, ""});
@@ -46,6 +48,9 @@ FeatureTable noisy_table(bool local) {
         table.features(row, d) = static_cast<float>(0.5 * random.normal() + (d % 8 == i % 3 ? 1.0 : 0.0));
       }
     }
+  }
+  for (float& value : table.features.bottomRows(background_rows).reshaped()) {
+    value = static_cast<float>(random.normal() - 0.5);
   }
   return table;
 }
@@ -124,20 +129,26 @@ class ServingRanks {
   std::vector<std::thread> servers_;
 };
 
-class Training : public testing::TestWithParam<std::tuple<KernelKind, bool>> {};
+// A kernel, the dimensions of a small space, and whether features are local.
+class Training : public testing::TestWithParam<std::tuple<KernelKind, int, bool>> {};
 INSTANTIATE_TEST_SUITE_P(Kernels, Training,
-                         testing::Combine(testing::Values(KernelKind::linear, KernelKind::rbf), testing::Bool()));
+                         testing::Values(std::tuple(KernelKind::linear, 0, false),
+                                         std::tuple(KernelKind::linear, 0, true), std::tuple(KernelKind::rbf, 0, false),
+                                         std::tuple(KernelKind::rbf, 0, true),
+                                         std::tuple(KernelKind::linear, 10, false)));
 
 TEST_P(Training, DoesNotDependOnRanksAndThreads) {
-  const auto [kernel, local] = GetParam();
-  const FeatureTable table = noisy_table(local);
-  const JudgeSettings settings{kernel, default_c(kernel), true};
+  const auto [kernel, dimensions, local] = GetParam();
+  const FeatureTable table = noisy_table(local, dimensions > 0 ? 15 : 0);
+  JudgeSettings settings{.kernel = kernel, .dimensions = dimensions};
+  settings.c = default_c(settings);
   LocalFarm one(1);
   const BroadcastTable here(table, one.farm(), {}, kWorthBroadcasting);
   JudgeTrainer alone(here, settings);
-  const auto [judges, calibration] = alone.train_calibrated(all_objects(), 7);
+  const auto [judges, calibration, known] = alone.train_calibrated(all_objects(), 7);
   ASSERT_EQ(judges.size(), 3U);
-  EXPECT_NE(calibration.slope, Calibration{}.slope);
+  EXPECT_NE(calibration.slope, PlattScaling{}.slope);
+  EXPECT_EQ(known.empty(), dimensions == 0);
   for (const int count : {2, 4}) {
     ServingRanks ranks(count);
     TaskFarm farm(ranks.communicator());
@@ -149,7 +160,11 @@ TEST_P(Training, DoesNotDependOnRanksAndThreads) {
     EXPECT_EQ(trained.judges.supports, judges.supports);
     EXPECT_EQ(trained.calibration.slope, calibration.slope);
     EXPECT_EQ(trained.calibration.offset, calibration.offset);
-    EXPECT_EQ(trained.calibration.familiarity_slope, calibration.familiarity_slope);
+    EXPECT_EQ(trained.judges.whitening.middle, judges.whitening.middle);
+    EXPECT_TRUE(std::ranges::equal(trained.judges.whitening.columns.bits(), judges.whitening.columns.bits()));
+    EXPECT_EQ(trained.known.weights, known.weights);
+    EXPECT_EQ(trained.known.scaling.slope, known.scaling.slope);
+    EXPECT_EQ(trained.known.least, known.least);
   }
 }
 
@@ -179,6 +194,14 @@ TEST(Training, RanksUseTheRowsTheyKept) {
   EXPECT_NO_THROW(make_gram_work(gram_context(), kept));
 }
 
+// Judges that see the features themselves: other ranks are told these as they come.
+Settings settings_without_space() {
+  Settings settings = test::tiny_settings();
+  settings.judge.dimensions = 0;
+  settings.background = 0;
+  return settings;
+}
+
 // As a sweep over settings of the judges does.
 TEST(Training, RanksKeepATableForAnotherTrainer) {
   const test::TempDir dir;
@@ -188,13 +211,13 @@ TEST(Training, RanksKeepATableForAnotherTrainer) {
   {
     TaskFarm farm(ranks.communicator());
     BroadcastRows rows;
-    const FeatureTable table = describe_dataset(read_dataset({dir / "shapes"}), test::tiny_settings(), {.farm = &farm},
-                                                kWorthBroadcasting, rows);
+    const FeatureTable table = describe_dataset(read_dataset({dir / "shapes"}), settings_without_space(),
+                                                {.farm = &farm}, kWorthBroadcasting, kNeverAlongBasis, rows);
     ASSERT_EQ(rows.objects.size(), 12U);
     std::vector<std::uint32_t> objects(12);
     std::iota(objects.begin(), objects.end(), 0U);
     for (const double c : {3.0, 300.0}) {
-      const JudgeSettings settings{KernelKind::linear, c, true};
+      const JudgeSettings settings{.c = c};
       const BroadcastTable broadcast(table, farm, rows, kWorthBroadcasting);
       JudgeTrainer trainer(broadcast, settings);
       LocalFarm one(1);
@@ -214,7 +237,7 @@ TEST(Training, TinyTablesStayHere) {
   TaskFarm farm(ranks.communicator());
   const BroadcastTable here(table, farm);
   EXPECT_FALSE(here.is_broadcast());
-  JudgeTrainer trainer(here, {});
+  JudgeTrainer trainer(here, JudgeSettings{});
   trainer.train(all_objects());
   EXPECT_EQ(farm.report().seconds, 0.0);
 }
@@ -227,7 +250,7 @@ TEST(Trials, AreTheSameFromWhatARankKeeps) {
   data.unknown_objects.problems = {""};
   data.tested = TestTable{data.table.objects,           1,  data.table.features(Eigen::seq(1, 59, 2), Eigen::all),
                           std::vector<std::string>(30), {}, {}};
-  const Settings settings = preset("default");
+  const Settings settings = settings_without_space();
   LocalFarm one(1);
   const BroadcastTable here(data.table, one.farm());
   JudgeTrainer trainer(here, settings.judge);
@@ -257,6 +280,7 @@ TEST(Trials, AreTheSameFromWhatARankKeeps) {
   EXPECT_EQ(found.named, expected.named);
   EXPECT_EQ(found.right, expected.right);
   EXPECT_EQ(found.wrong, expected.wrong);
+  EXPECT_EQ(found.known, expected.known);
   EXPECT_EQ(found.unknown_objects, expected.unknown_objects);
 }
 

@@ -23,6 +23,7 @@
 #include "spincat/train/broadcast_table.h"
 #include "spincat/train/describe_dataset.h"
 #include "spincat/train/judge_trainer.h"
+#include "spincat/train/learned_space.h"
 #include "support/copies.h"
 #include "support/expect_error.h"
 #include "support/shapes.h"
@@ -84,8 +85,10 @@ Settings small_settings(const char* name = "default") {
   settings.prepare.spin_points = 48;
   settings.spin.image_width = 8;
   settings.spin.bin_size = 0.25;
+  settings.radial = false;
   settings.plain_samples = false;
   settings.copies = std::min(settings.copies, 1);
+  settings.background = std::min(settings.background, 12);
   return settings;
 }
 
@@ -178,6 +181,85 @@ TEST_P(Preset, EvaluatesTheSameOnAnyNumberOfThreads) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Presets, Preset, testing::Values("default", "paper"));
+
+// So many copies that a few of the objects are sample enough for the directions of all.
+Settings settings_of_many_rows() {
+  Settings settings = small_settings();
+  settings.prepare.points = 100;
+  settings.prepare.spin_points = 16;
+  settings.copies = 100;
+  return settings;
+}
+
+TEST(DescribeDataset, KeepsCoordinatesWhereRowsAreMany) {
+  const Settings settings = settings_of_many_rows();
+  const auto rows_each = static_cast<std::size_t>(settings.training_rows());
+  ASSERT_GT(shapes().objects.size() * rows_each, kMostSampleRows + 5 * rows_each);
+  BroadcastRows broadcast;
+  const FeatureTable whole = describe_dataset(shapes(), settings, {.threads = 2}, 0, kNeverAlongBasis, broadcast);
+  const FeatureTable table = describe_dataset(shapes(), settings, {.threads = 2}, 0, kMostSampleRows, broadcast);
+  ASSERT_EQ(table.features.rows(), whole.features.rows());
+  ASSERT_EQ(table.background_rows, 12U);
+  EXPECT_EQ(table.basis.cols(), whole.features.cols());
+  EXPECT_EQ(table.basis.rows(), table.features.cols());
+  EXPECT_LT(table.features.cols(), whole.features.cols());
+  const FeatureMatrix expected = whole.features * table.basis.transpose();
+  EXPECT_LT((table.features - expected).cwiseAbs().maxCoeff(), 1e-3F);
+  // What the coordinates leave out is little.
+  const FeatureMatrix centred = whole.features.rowwise() - whole.features.colwise().mean();
+  const FeatureMatrix kept = table.features.rowwise() - table.features.colwise().mean();
+  EXPECT_GT(kept.squaredNorm(), 0.95F * centred.squaredNorm());
+}
+
+TEST(DescribeDataset, PutsOthersAndShapesBelowTheObjects) {
+  const TempDir dir;
+  Dataset dataset = shapes();
+  dataset.others = {dir.write("a.off", test::off_text(test::box(1, 9, 1))), dir / "absent.off",
+                    dir.write("b.off", test::off_text(test::box(9, 9, 1)))};
+  const Settings settings = small_settings();
+  const FeatureTable table = describe_dataset(dataset, settings, {.threads = 2});
+  EXPECT_EQ(table.background_rows, 12U + 2U);
+  EXPECT_EQ(table.other_rows, 2U);
+  EXPECT_EQ(table.features.rows(), static_cast<Eigen::Index>(table.objects.size() * table.rows_per_object + 14));
+  const std::vector<float> first = describe(test::box(1, 9, 1), settings).values;
+  const auto row = table.features.row(table.rows_of_background().front());
+  EXPECT_TRUE(std::ranges::equal(first, std::vector<float>(row.begin(), row.end())));
+  EXPECT_NE(input_error([&] { describe_dataset(dataset, settings, {.threads = 2, .strict = true}); }).find("absent"),
+            std::string::npos);
+}
+
+// Three long boxes across each other.
+Mesh star(double length) {
+  return test::joined(test::joined(test::box(1, length, 1), test::box(length, 1, 1)), test::box(1, 1, length));
+}
+
+TEST(Train, KnowsStrangersByTheUsersOthers) {
+  const TempDir dir;
+  Dataset dataset = shapes();
+  for (int k = 0; k < 8; ++k) {
+    dataset.others.push_back(dir.write(fmt::format("{}.off", k), test::off_text(star(6.0 + 0.5 * k))));
+  }
+  const Model model = train(dataset, small_settings(), {.threads = 2}).model;
+  EXPECT_TRUE(model.tells_strangers());
+  const double stranger = classify(model, star(7.25)).known;
+  for (std::uint32_t c = 0; c < 4; ++c) {
+    EXPECT_GT(classify(model, shape_of(model.categories()[c], kShapesEach)).known, stranger) << model.categories()[c];
+  }
+  EXPECT_LT(stranger, model.least_known());
+}
+
+TEST(Train, LearnsFromCoordinatesTheSameOnAnyNumberOfThreads) {
+  const Settings settings = settings_of_many_rows();
+  const Model model = train(shapes(), settings, {.threads = 1}).model;
+  EXPECT_EQ(model_bytes(train(shapes(), settings, {.threads = 3}).model), model_bytes(model));
+  int right = 0;
+  const TempDir dir;
+  for (std::uint32_t c = 0; c < 4; ++c) {
+    const auto file = dir.write("held-out.off", test::off_text(shape_of(model.categories()[c], kShapesEach + 1)));
+    right += classify_file(model, file).ballot.winner == c ? 1 : 0;
+  }
+  EXPECT_EQ(right, 4);
+}
 
 TEST(Train, NamesHeldOutShapes) {
   const Model model = train(shapes(), small_settings(), {}).model;
@@ -385,6 +467,8 @@ TEST(Describe, DrawsAreAveraged) {
 
 TEST(Describe, CloudCopiesAreClouds) {
   Settings settings = small_settings();
+  EXPECT_EQ(settings.training_rows(), 4);
+  settings.trained_for = TrainedFor::meshes;
   EXPECT_EQ(settings.training_rows(), 2);
   settings.copies = 2;
   settings.trained_for = TrainedFor::any;
@@ -419,6 +503,8 @@ TEST(TrainForAny, NamesCloudsAsWell) {
 TEST(TrainJudges, TestObjectsDoNotInfluenceTheCodebook) {
   Settings settings = small_settings();
   settings.encoding = "bag-of-features";
+  settings.judge.dimensions = 0;
+  settings.background = 0;
   settings.words = 8;
   FeatureTable table = describe_dataset(shapes(), settings, {.threads = 2, .strict = true});
   std::vector<std::uint32_t> learned;
@@ -453,7 +539,8 @@ TEST_P(Variant, FindsEasyShapesAndKeepsItsModel) {
   settings.encoding = GetParam().first;
   settings.words = 16;
   settings.judge.kernel = GetParam().second;
-  settings.judge.c = default_c(settings.judge.kernel);
+  settings.judge.dimensions = 0;
+  settings.judge.c = default_c(settings.judge);
   EXPECT_GE(evaluated(settings, 2).mean_class_rate.mean, 0.6);
   const Model model = train(shapes(), settings, {.threads = 1}).model;
   EXPECT_EQ(model_bytes(train(shapes(), settings, {.threads = 3}).model), model_bytes(model));
@@ -534,7 +621,8 @@ TEST(Classify, AnObjectThatDoesNotFitIsRefusedWithItsFile) {
   const TempDir dir;
   const auto same = dir.write("same.off", "OFF 2 0 0\n1 1 1\n1 1 1\n");
   EXPECT_EQ(input_error([&] { classify_file(model, same); }), same.string() + ": all its points are at one place");
-  model.judges.weights.conservativeResize(Eigen::NoChange, 7);
+  const auto length = static_cast<std::size_t>(model.judges.weights.cols());
+  model.judges.whitening.columns = HalfRows(7, std::vector<std::uint16_t>(7 * length));
   EXPECT_EQ(input_error([&] { classify(model, test::box()); }), "gives 192 features where the model expects 7");
 }
 

@@ -99,7 +99,8 @@ TEST_F(Views, TrainedJudgesNameNewViews) {
   const Model model = train(shapes(), view_settings(4), {.threads = 2}).model;
   EXPECT_EQ(model.meshes(), 12U);
   EXPECT_EQ(model.clouds(), 0U);
-  EXPECT_EQ(model.data().familiarity.labels.size(), 48U);
+  EXPECT_TRUE(model.tells_strangers());
+  EXPECT_EQ(model.data().judges.whitening.input_length(), model.feature_length());
   int right = 0;
   for (std::uint32_t category = 0; category < 3; ++category) {
     for (int k = 0; k < 4; ++k) {
@@ -157,8 +158,9 @@ TEST_F(Views, EvaluationTellsOfClouds) {
   EvaluateOptions options;
   options.splits = 1;
   options.test.form = TestForm::cloud;
-  EXPECT_NE(evaluate(shapes(), test::tiny_settings(), options).kind_mismatch.find("is a point cloud"),
-            std::string::npos);
+  Settings meshes = test::tiny_settings();
+  meshes.trained_for = TrainedFor::meshes;
+  EXPECT_NE(evaluate(shapes(), meshes, options).kind_mismatch.find("is a point cloud"), std::string::npos);
   Settings any = test::tiny_settings();
   any.trained_for = TrainedFor::any;
   EXPECT_EQ(evaluate(shapes(), any, options).kind_mismatch, "");

@@ -37,6 +37,7 @@ constexpr std::array kFamilies = {
     background::cluster,      background::mirror_cluster, background::star_cluster,
     background::rods,
 };
+static_assert(kFamilies.size() == kBackgroundFamilies);
 
 constexpr std::uint64_t kSeed = 19;  // of all shapes
 

@@ -7,6 +7,9 @@
 
 namespace spincat {
 
+// How many families there are (families.h): shape number n is of family n modulo this.
+inline constexpr std::uint32_t kBackgroundFamilies = 67;
+
 // How many background shapes there are. Any first ones of them hold as many of each family as possible.
 inline constexpr std::uint32_t kBackgroundShapes = 536;
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <vector>
+
 #include "spincat/classify/model_data.h"
 #include "spincat/describe/stopwatch.h"
 #include "spincat/describe/training_copies.h"
@@ -23,9 +25,10 @@ Classification classify(const Model& by, const Object& object, const EncodePrepa
         fmt::format("gives {} features where the model expects {}", features.values.size(), model.feature_length()));
   }
   Stopwatch watch;
-  result.ballot = model.judges.vote(features.values);
-  const double familiarity = model.familiarity.of(features.values, result.ballot.winner);
-  result.confidence = model.calibration.confidence(result.ballot, familiarity);
+  const std::vector<float> seen = model.judges.seen(features.values);
+  result.ballot = model.judges.vote_on(seen);
+  result.confidence = model.calibration.probability(static_cast<double>(result.ballot.weakest_margin));
+  result.known = model.known.known(seen);
   result.seconds.judge = watch.lap();
   return result;
 }

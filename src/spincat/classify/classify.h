@@ -19,8 +19,10 @@
 namespace spincat {
 
 struct Classification {
-  Ballot ballot;              // categories as indices into Model::categories
-  double confidence = 0.0;    // in (0, 1): how likely the winner is right, by the model's calibration
+  Ballot ballot;            // categories as indices into Model::categories
+  double confidence = 0.0;  // in (0, 1): how likely the winner is right, by the model's calibration, if the object is
+                            // of one of the categories
+  double known = 1.0;  // in (0, 1]: how likely it is, rather than something else; 1 where the model tells no strangers
   std::string kind_mismatch;  // why the judges should not be trusted with this object (kinds.h); mostly empty
   StageSeconds seconds;
 };

@@ -19,9 +19,10 @@ namespace spincat {
 
 // All but the ballot. The margins are all there is to that, and come first: the rest is counted again.
 void fields(auto& archive, MessageOf<Classification> auto& classification) {
-  auto& [ballot, confidence, kind_mismatch, seconds] = classification;  // does not compile when a member is forgotten
+  auto& [ballot, confidence, known, kind_mismatch, seconds] =
+      classification;  // does not compile when a member is forgotten
   static_cast<void>(ballot);
-  archive(confidence, kind_mismatch, seconds);
+  archive(confidence, known, kind_mismatch, seconds);
 }
 
 namespace {

@@ -48,10 +48,16 @@ EncodedPart encoded(PreparedPart prepared, const Encoding& encoding) {
   return part;
 }
 
+// A margin that is weights . features + bias.
+struct LinearMargin {
+  Eigen::VectorXf weights;
+  float bias = 0.0F;
+};
+
 // The judge of winner and runner-up by itself, signed in the winner's favour.
 class PairJudge {
  public:
-  PairJudge(const JudgeList& judges, const Ballot& ballot) : codebook_(judges.codebook), kernel_(judges.kernel) {
+  PairJudge(const JudgeList& judges, const Ballot& ballot) : judges_(judges) {
     const auto [a, b] = std::minmax(ballot.winner, ballot.runner_up);
     std::size_t judge = 0;
     while (ballot.votes[judge].category_a != a || ballot.votes[judge].category_b != b) {
@@ -61,26 +67,41 @@ class PairJudge {
     sign_ = a == ballot.winner ? 1.0F : -1.0F;
     bias_ = sign_ * judges.bias[row];
     margin_ = sign_ * ballot.votes[judge].margin;
-    if (kernel_.kind == KernelKind::linear) {
+    if (is_linear()) {
       weights_ = sign_ * judges.weights.row(row).transpose();
     } else {
       keep_supports(judges, row);
     }
   }
 
-  float bias() const { return bias_; }
   float margin_in_ballot() const { return margin_; }
-  // Whether the margin is weights . features + bias.
-  bool is_linear() const { return kernel_.kind == KernelKind::linear && codebook_.empty(); }
-  std::span<const float> weights() const { return {weights_.data(), static_cast<std::size_t>(weights_.size())}; }
+
+  // Nothing where the margin is no weighted sum of features. With w the judge's weights in the small space, A its map,
+  // c its middle and l the length of A x - c, which is held at what it is for the whole object, the margin is
+  // (A^T w / l) . x - w . c / l + bias.
+  std::optional<LinearMargin> linear_margin(std::span<const float> features) const {
+    if (!is_linear() || !judges_.codebook.empty()) {
+      return std::nullopt;
+    }
+    const Whitening& whitening = judges_.whitening;
+    if (whitening.empty()) {
+      return LinearMargin{weights_, bias_};
+    }
+    const float length = whitening.unscaled_place(features).norm();
+    const float scale = length > 0.0F ? 1.0F / length : 0.0F;
+    const std::vector<float> weights =
+        whitening.columns.products({weights_.data(), static_cast<std::size_t>(weights_.size())});
+    return LinearMargin{
+        scale * Eigen::Map<const Eigen::VectorXf>(weights.data(), static_cast<Eigen::Index>(weights.size())),
+        bias_ - scale * whitening.middle.transpose().dot(weights_)};
+  }
 
   float margin(std::span<const float> features) const {
-    const std::vector<float> counted = codebook_.empty() ? std::vector<float>() : codebook_.count(features);
-    const std::span<const float> seen = codebook_.empty() ? features : std::span(counted);
-    if (kernel_.kind == KernelKind::linear) {
+    const std::vector<float> seen = judges_.seen(features);
+    if (is_linear()) {
       return weights_.dot(Eigen::Map<const Eigen::VectorXf>(seen.data(), weights_.size())) + bias_;
     }
-    return weights_.dot(kernel_.row(supports_, seen)) + bias_;
+    return weights_.dot(judges_.kernel.row(supports_, seen)) + bias_;
   }
 
  private:
@@ -96,8 +117,9 @@ class PairJudge {
     weights_ = sign_ * judges.weights(row, used).transpose();
   }
 
-  const Codebook& codebook_;
-  Kernel kernel_;
+  bool is_linear() const { return judges_.kernel.kind == KernelKind::linear; }
+
+  const JudgeList& judges_;
   Eigen::VectorXf weights_;
   FeatureMatrix supports_;
   float sign_ = 1.0F;
@@ -106,11 +128,12 @@ class PairJudge {
 };
 
 // Each point's share of the margin; false where the encoding knows no shares. `bias`: a point's part of it.
-bool contribution(const PairJudge& judge, double bias, EncodedPart& part) {
+bool contribution(const LinearMargin& margin, double bias, EncodedPart& part) {
+  const std::span<const float> weights(margin.weights.data(), static_cast<std::size_t>(margin.weights.size()));
   std::vector<double> shares(part.spin_points().size(), 0.0);
   bool known = true;
   part.for_each_block([&](const SpinImageBlock& block) {
-    known = known && part.encoder->add_contributions(block, part.sums, part.place(judge.weights()), shares);
+    known = known && part.encoder->add_contributions(block, part.sums, part.place(weights), shares);
   });
   for (std::size_t k = 0; known && k < shares.size(); ++k) {
     part.evidence.push_back(static_cast<float>(static_cast<double>(part.prepared->factor) * shares[k] + bias));
@@ -118,14 +141,13 @@ bool contribution(const PairJudge& judge, double bias, EncodedPart& part) {
   return known;
 }
 
-bool contribution(const PairJudge& judge, std::span<EncodedPart> parts) {
+bool contribution(const LinearMargin& margin, std::span<EncodedPart> parts) {
   double points = 0.0;
   for (const EncodedPart& part : parts) {
     points += static_cast<double>(part.spin_points().size());
   }
-  const double bias = static_cast<double>(judge.bias()) / points;
-  return judge.is_linear() &&
-         std::ranges::all_of(parts, [&](EncodedPart& part) { return contribution(judge, bias, part); });
+  const double bias = static_cast<double>(margin.bias) / points;
+  return std::ranges::all_of(parts, [&](EncodedPart& part) { return contribution(margin, bias, part); });
 }
 
 // By how much the margin falls without each of the first points of a part. `whole`: the object's feature vector.
@@ -161,7 +183,8 @@ Evidence explain(const Model& model, const Object& object, const Ballot& ballot)
     std::ranges::transform(place, part.values, place.begin(),
                            [&](float sum, float value) { return sum + part.prepared->factor * value; });
   }
-  if (!contribution(judge, parts)) {
+  const std::optional<LinearMargin> margin = judge.linear_margin(whole);
+  if (!margin || !contribution(*margin, parts)) {
     result.kind = EvidenceKind::leaving_out;
     for (EncodedPart& part : parts) {
       leave_out(judge, whole, part);

@@ -48,4 +48,12 @@ std::size_t Model::judge_count() const {
   return data_->judges.size();
 }
 
+bool Model::tells_strangers() const {
+  return !data_->known.empty();
+}
+
+double Model::least_known() const {
+  return data_->known.least;
+}
+
 }  // namespace spincat

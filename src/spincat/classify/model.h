@@ -15,8 +15,8 @@ namespace spincat {
 
 // The newest version of the model file that this library reads, which is the one it writes, and the oldest one. Models
 // of older versions lack what answers are made of now: they are to be trained again.
-inline constexpr std::uint32_t kModelVersion = 2;
-inline constexpr std::uint32_t kOldestModelVersion = 2;
+inline constexpr std::uint32_t kModelVersion = 3;
+inline constexpr std::uint32_t kOldestModelVersion = 3;
 
 struct ModelData;  // model_data.h
 
@@ -35,6 +35,8 @@ class Model {
   const std::filesystem::path& file() const;  // it was read from; empty for one that was trained here
   std::size_t feature_length() const;         // how many features an object gives
   std::size_t judge_count() const;            // n (n - 1) / 2
+  bool tells_strangers() const;  // whether it learned from a background what belongs to none of its categories
+  double least_known() const;    // Classification::known below which it calls an object unknown; 0 where it tells none
 
   // For the library itself.
   const ModelData& data() const { return *data_; }

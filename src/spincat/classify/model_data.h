@@ -9,9 +9,9 @@
 
 #include "spincat/classify/model.h"
 #include "spincat/describe/kinds.h"
-#include "spincat/judge/calibration.h"
-#include "spincat/judge/familiarity.h"
 #include "spincat/judge/judge_list.h"
+#include "spincat/judge/known_judge.h"
+#include "spincat/judge/platt_scaling.h"
 #include "spincat/settings/settings.h"
 
 namespace spincat {
@@ -21,8 +21,8 @@ struct ModelData {
   Settings settings;
   std::vector<std::string> categories;
   JudgeList judges;
-  Calibration calibration;
-  Familiarity familiarity;
+  PlattScaling calibration;  // of the winner's weakest margin: how often it is right
+  KnownJudge known;
   std::string dataset;
   std::vector<std::uint32_t> object_counts;
   KindCounts kinds;

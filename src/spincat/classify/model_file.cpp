@@ -10,6 +10,7 @@
 #include <set>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "spincat/classify/model_data.h"
@@ -103,6 +104,11 @@ Json judges_to_json(const JudgeList& judges, RecordBlobs& blobs) {
     json["scale"] = blobs.add(judges.kernel.scale);
     json["supports"] = blobs.add(numbers_of(judges.supports));
   }
+  if (!judges.whitening.empty()) {
+    json["inputs"] = judges.whitening.input_length();
+    json["map"] = blobs.add(std::as_bytes(judges.whitening.columns.bits()));
+    json["middle"] = blobs.add(numbers_of(judges.whitening.middle));
+  }
   if (!judges.codebook.empty()) {
     json["local_size"] = judges.codebook.words.cols();
     json["codebook"] = blobs.add(numbers_of(judges.codebook.words));
@@ -151,6 +157,26 @@ void kernel_from_json(const Json& json, KernelKind kind, std::size_t features, J
   judges.supports = unpack_matrix(json, "supports", features);
 }
 
+// A space of `dimensions` numbers.
+Whitening whitening_from_json(const Json& json, std::size_t dimensions) {
+  const std::size_t inputs = whole_number<std::size_t>(member(json, "inputs")).value_or(0);
+  const Json& blob = member(json, "map");
+  if (inputs == 0 || inputs > kMostFeatures || !blob.is_binary() ||
+      blob.get_binary().size() != dimensions * inputs * sizeof(std::uint16_t)) {
+    throw InputError("model: 'map' is of the wrong size");
+  }
+  std::vector<std::uint16_t> halves(dimensions * inputs);
+  std::memcpy(halves.data(), blob.get_binary().data(), blob.get_binary().size());
+  Whitening whitening;
+  whitening.columns = HalfRows(inputs, std::move(halves));
+  if (!whitening.columns.all_finite()) {
+    throw InputError("model: 'map' holds a number that is not finite");
+  }
+  whitening.middle.resize(static_cast<Eigen::Index>(dimensions));
+  unpack_floats(json, "middle", {whitening.middle.data(), dimensions});
+  return whitening;
+}
+
 void codebook_from_json(const Json& json, std::size_t features, Codebook& codebook) {
   const std::size_t size = whole_number<std::size_t>(member(json, "local_size")).value_or(0);
   if (size == 0 || size > kMostFeatures / kLocalFeatures) {
@@ -180,6 +206,9 @@ JudgeList judges_from_json(const Json& json, std::size_t categories, KernelKind 
   if (static_cast<std::size_t>(judges.weights.rows()) != count) {
     throw InputError("model: 'weights' is of the wrong size");
   }
+  if (json.contains("map")) {
+    judges.whitening = whitening_from_json(json, features);
+  }
   if (json.contains("codebook")) {
     codebook_from_json(json, features, judges.codebook);
   }
@@ -189,49 +218,38 @@ JudgeList judges_from_json(const Json& json, std::size_t categories, KernelKind 
   return judges;
 }
 
-Json familiarity_to_json(const Familiarity& f, RecordBlobs& blobs) {
-  return {{"labels", f.labels},
-          {"objects", blobs.add(numbers_of(f.objects))},
-          {"typical", blobs.add(f.typical)},
-          {"spread", blobs.add(f.spread)}};
+Json scaling_to_json(const PlattScaling& scaling) {
+  return {{"slope", scaling.slope}, {"offset", scaling.offset}};
 }
 
-Familiarity familiarity_from_json(const Json& json, std::size_t categories, std::size_t features) {
-  Familiarity f;
-  const Json& labels = member(json, "labels");
-  if (!labels.is_array()) {
-    throw InputError("model: 'labels' is no list");
-  }
-  if (labels.empty()) {
-    return f;
-  }
-  f.labels = counts(json, "labels", labels.size());
-  // The blob's size is checked before any memory is taken for it.
-  const Json& objects = member(json, "objects");
-  const std::size_t length = objects.is_binary() ? objects.get_binary().size() / sizeof(float) / f.labels.size() : 0;
-  if (length == 0 || length > features) {
-    throw InputError("model: 'objects' is of the wrong size");
-  }
-  f.objects.resize(static_cast<Eigen::Index>(f.labels.size()), static_cast<Eigen::Index>(length));
-  unpack_floats(json, "objects", {f.objects.data(), f.labels.size() * length});
-  f.typical.resize(categories);
-  f.spread.resize(categories);
-  unpack_floats(json, "typical", f.typical);
-  unpack_floats(json, "spread", f.spread);
-  std::vector<bool> present(categories, false);
-  for (const std::uint32_t label : f.labels) {
-    if (label >= categories) {
-      throw InputError("model: 'labels' names a category that is not there");
+PlattScaling scaling_from_json(const Json& json, const char* name) {
+  const PlattScaling scaling{value<double>(member(json, name), "slope"), value<double>(member(json, name), "offset")};
+  for (const double number : {scaling.slope, scaling.offset}) {
+    if (!(std::abs(number) <= kLargestNumber)) {
+      throw InputError(fmt::format("model: '{}' is not finite, or too large", name));
     }
-    present[label] = true;
   }
-  if (std::ranges::find(present, false) != present.end()) {
-    throw InputError("model: 'labels' leaves a category without objects");
+  return scaling;
+}
+
+Json known_to_json(const KnownJudge& known, RecordBlobs& blobs) {
+  return {{"weights", blobs.add(numbers_of(known.weights))},
+          {"bias", known.bias},
+          {"scaling", scaling_to_json(known.scaling)},
+          {"least", known.least}};
+}
+
+KnownJudge known_from_json(const Json& json, std::size_t features) {
+  KnownJudge known;
+  known.weights.resize(static_cast<Eigen::Index>(features));
+  unpack_floats(json, "weights", {known.weights.data(), features});
+  known.bias = value<float>(json, "bias");
+  known.scaling = scaling_from_json(json, "scaling");
+  known.least = value<double>(json, "least");
+  if (!(std::abs(known.bias) <= kLargestNumber) || !(known.least >= 0.0 && known.least <= 1.0)) {
+    throw InputError("model: 'known' holds a number out of range");
   }
-  if (std::ranges::any_of(f.spread, [](float spread) { return !(spread > 0.0F); })) {
-    throw InputError("model: 'spread' is not above zero");
-  }
-  return f;
+  return known;
 }
 
 ModelData model_from_json(const Json& json) {
@@ -251,15 +269,14 @@ ModelData model_from_json(const Json& json) {
     throw InputError(fmt::format("model: a codebook is {} for the encoding {}",
                                  model.judges.codebook.empty() ? "missing" : "not expected", model.settings.encoding));
   }
-  model.calibration.slope = value<double>(member(json, "calibration"), "slope");
-  model.calibration.offset = value<double>(member(json, "calibration"), "offset");
-  model.calibration.familiarity_slope = value<double>(member(json, "calibration"), "familiarity_slope");
-  for (const double number : {model.calibration.slope, model.calibration.offset, model.calibration.familiarity_slope}) {
-    if (!(std::abs(number) <= kLargestNumber)) {
-      throw InputError("model: 'calibration' is not finite, or too large");
-    }
+  if ((model.settings.judge.dimensions > 0) == model.judges.whitening.empty()) {
+    throw InputError(fmt::format("model: a space that judges learn in is {}",
+                                 model.judges.whitening.empty() ? "missing" : "not expected"));
   }
-  model.familiarity = familiarity_from_json(member(json, "familiarity"), n, model.feature_length());
+  model.calibration = scaling_from_json(json, "calibration");
+  if (json.contains("known")) {
+    model.known = known_from_json(member(json, "known"), model.judges.seen_length());
+  }
   model.dataset = value<std::string>(json, "dataset");
   model.made_by = value<std::string>(json, "made_by");
   model.object_counts = counts(json, "object_counts", n);
@@ -273,18 +290,17 @@ ModelData model_from_json(const Json& json) {
 void write_model(const std::filesystem::path& file, const Model& written) {
   const ModelData& model = written.data();
   RecordBlobs blobs;
-  const Json json = {{"settings", settings_to_json(model.settings)},
-                     {"categories", model.categories},
-                     {"judges", judges_to_json(model.judges, blobs)},
-                     {"calibration",
-                      {{"slope", model.calibration.slope},
-                       {"offset", model.calibration.offset},
-                       {"familiarity_slope", model.calibration.familiarity_slope}}},
-                     {"familiarity", familiarity_to_json(model.familiarity, blobs)},
-                     {"dataset", model.dataset},
-                     {"object_counts", model.object_counts},
-                     {"kinds", {model.kinds.meshes, model.kinds.clouds}},
-                     {"made_by", model.made_by}};
+  Json json = {{"settings", settings_to_json(model.settings)},
+               {"categories", model.categories},
+               {"judges", judges_to_json(model.judges, blobs)},
+               {"calibration", scaling_to_json(model.calibration)},
+               {"dataset", model.dataset},
+               {"object_counts", model.object_counts},
+               {"kinds", {model.kinds.meshes, model.kinds.clouds}},
+               {"made_by", model.made_by}};
+  if (!model.known.empty()) {
+    json["known"] = known_to_json(model.known, blobs);
+  }
   write_record(file, "model", kModelVersion, json, blobs);
 }
 

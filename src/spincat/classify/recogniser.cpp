@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "spincat/camera/segment/segment.h"
@@ -62,8 +63,8 @@ void RecogniserSettings::validate() const {
   if (table.up && !(table.up->allFinite() && table.up->norm() > 0.0F)) {
     throw InputError("the direction that is up has no direction");
   }
-  if (!(reject >= 0.0 && reject <= 1.0)) {
-    throw InputError(fmt::format("least confidence {} is out of range (0 to 1)", reject));
+  if (reject && !(*reject >= 0.0 && *reject <= 1.0)) {
+    throw InputError(fmt::format("least share of known {} is out of range (0 to 1)", *reject));
   }
   if (summed_frames < 1 || summed_frames > 10'000) {
     throw InputError(fmt::format("number of summed frames {} is out of range (1 to 10000)", summed_frames));
@@ -83,6 +84,7 @@ class Recogniser::Sight {
   struct Memory {
     std::vector<Ballot> ballots;  // of its last frames
     std::vector<double> confidences;
+    std::vector<double> known;
   };
 
   void find_objects(const DepthImage& image, const Intrinsics& intrinsics, SeenFrame& frame);
@@ -174,6 +176,7 @@ void Recogniser::Sight::name_object(const DepthImage& image, const Intrinsics& i
     Classification named = classify(model_, cloud);
     object.ballot = std::move(named.ballot);
     object.confidence = named.confidence;
+    object.known = named.known;
   } catch (const InputError& error) {
     object.problem = error.problem();
   }
@@ -185,16 +188,20 @@ void Recogniser::Sight::sum_up(SeenObject& object) {
   if (memory.ballots.size() == most) {
     memory.ballots.erase(memory.ballots.begin());
     memory.confidences.erase(memory.confidences.begin());
+    memory.known.erase(memory.known.begin());
   }
   memory.ballots.push_back(object.ballot);
   memory.confidences.push_back(object.confidence);
+  memory.known.push_back(object.known);
   object.fused = sum_votes(memory.ballots);
   double sum = 0.0;
   for (std::size_t i = 0; i < memory.ballots.size(); ++i) {
     sum += memory.ballots[i].winner == object.fused.winner ? memory.confidences[i] : 0.0;
   }
   object.fused_confidence = sum / static_cast<double>(memory.ballots.size());
-  object.unknown = object.fused_confidence < settings_.reject;
+  object.fused_known =
+      std::accumulate(memory.known.begin(), memory.known.end(), 0.0) / static_cast<double>(memory.known.size());
+  object.unknown = object.fused_known < settings_.reject.value_or(model_.least_known());
 }
 
 }  // namespace spincat

@@ -20,8 +20,8 @@ struct RecogniserSettings {
   TableSettings table;
   SegmentSettings segment;
   TrackSettings tracks;
-  double reject = 0.0;     // names of less confidence are not given, 0 to 1
-  int summed_frames = 30;  // of a track: over so many of its last ones votes are summed, 1 to 10,000
+  std::optional<double> reject;  // names of objects that are less known are not given, 0 to 1; none: the model's choice
+  int summed_frames = 30;        // of a track: over so many of its last ones votes are summed, 1 to 10,000
 
   // Throws InputError naming the field, its value and the allowed range.
   void validate() const;
@@ -38,16 +38,18 @@ enum class FrameStatus {
 
 // One object of a frame.
 struct SeenObject {
-  std::uint64_t id = 0;   // the same from frame to frame, counted from 1
-  Segment segment;        // its place in this frame
-  float distance = 0.0F;  // from the camera to its middle, in metres
-  std::string problem;    // why it could not be named; empty where it could, and only then what follows holds
-  Ballot ballot;          // of this frame
-  double confidence = 0.0;
+  std::uint64_t id = 0;           // the same from frame to frame, counted from 1
+  Segment segment;                // its place in this frame
+  float distance = 0.0F;          // from the camera to its middle, in metres
+  std::string problem;            // why it could not be named; empty where it could, and only then what follows holds
+  Ballot ballot;                  // of this frame
+  double confidence = 0.0;        // of this frame
+  double known = 1.0;             // of this frame: how likely it is of one of the categories
   SummedVotes fused;              // over its last frames
   double fused_confidence = 0.0;  // the mean over these frames of the confidence in fused.winner, 0 where they named it
                                   // otherwise
-  bool unknown = false;           // fused_confidence is below RecogniserSettings::reject
+  double fused_known = 1.0;       // the mean over its last frames of how known it is
+  bool unknown = false;           // fused_known is below RecogniserSettings::reject
 };
 
 // Seconds of one frame, by stage.

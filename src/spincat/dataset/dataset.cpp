@@ -13,6 +13,7 @@
 
 #include "spincat/dataset/category_map.h"
 #include "spincat/dataset/listing.h"
+#include "spincat/dataset/object_files.h"
 #include "spincat/dataset/words.h"
 #include "spincat/error.h"
 #include "spincat/files/paths.h"
@@ -214,6 +215,15 @@ void check_enough(const Dataset& dataset) {
   }
 }
 
+// Nothing is of a category and of none.
+void check_apart(const Dataset& dataset) {
+  for (const fs::path& other : dataset.others) {
+    if (std::ranges::binary_search(dataset.objects, other, {}, &DatasetObject::file)) {
+      throw InputError(other.string(), "is an object of a category and among those of none");
+    }
+  }
+}
+
 }  // namespace
 
 Dataset read_dataset(const std::vector<fs::path>& sources, const DatasetOptions& options) {
@@ -243,6 +253,10 @@ Dataset read_dataset(const std::vector<fs::path>& sources, const DatasetOptions&
   }
   fill(dataset, each_once(std::move(objects)));
   check_enough(dataset);
+  if (!options.others.empty()) {
+    dataset.others = read_objects(options.others, options.others_models);
+    check_apart(dataset);
+  }
   return dataset;
 }
 

@@ -26,11 +26,12 @@ struct SkippedObject {
 };
 
 struct Dataset {
-  std::string name;                     // for titles: the argument as the user gave it
-  std::vector<std::string> categories;  // sorted by name (byte order), each with at least one object
-  std::vector<DatasetObject> objects;   // sorted by file, each file once
-  std::vector<SkippedObject> skipped;   // in the order they were met
-  ReadLimits limits = {};               // while reading its objects
+  std::string name;                                // for titles: the argument as the user gave it
+  std::vector<std::string> categories;             // sorted by name (byte order), each with at least one object
+  std::vector<DatasetObject> objects;              // sorted by file, each file once
+  std::vector<SkippedObject> skipped;              // in the order they were met
+  std::vector<std::filesystem::path> others = {};  // objects of none of the categories, by which strangers are known
+  ReadLimits limits = {};                          // while reading its objects
 };
 
 // A category that takes no part in an evaluation, and why.
@@ -46,6 +47,9 @@ struct DatasetOptions {
   // A CSV file with the columns class,category: keeps only the classes it lists, under their new category names.
   // In a .cla file a class may also be listed by the name of any of its ancestors; the nearest listed one wins.
   std::filesystem::path category_map;
+  // Objects of none of the categories, as read_objects takes them: what is like them is a stranger. Empty: none.
+  std::filesystem::path others = {};
+  std::filesystem::path others_models = {};
   // While reading the lists, and later the objects.
   ReadLimits limits = {};
 };

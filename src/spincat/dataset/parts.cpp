@@ -24,7 +24,7 @@ Dataset part_of(const Dataset& dataset, const std::function<bool(const DatasetOb
       place[object.category] = 0;
     }
   }
-  Dataset part{dataset.name, {}, {}, dataset.skipped, dataset.limits};
+  Dataset part{dataset.name, {}, {}, dataset.skipped, dataset.others, dataset.limits};
   for (std::size_t c = 0; c < place.size(); ++c) {
     if (place[c] != kGone) {
       place[c] = static_cast<std::uint32_t>(part.categories.size());

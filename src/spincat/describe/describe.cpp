@@ -51,28 +51,59 @@ std::uint64_t seed_of_draw(std::uint64_t seed, int draw) {
 // One of the parts of a feature vector: which points, and which way the axes of the spin images point.
 struct Part {
   SurfaceKind surface;
-  UpAxis axes;  // none: along the normals
+  SpinAxes axes;
 };
 
+SpinAxes up_axes(UpAxis up) {
+  return up == UpAxis::x ? SpinAxes::x : up == UpAxis::y ? SpinAxes::y : SpinAxes::z;
+}
+
+// Parts of the same points stand side by side, so that the points are made once.
 std::vector<Part> parts_of(const Settings& settings) {
-  std::vector<Part> parts = {{settings.prepare.surface, UpAxis::none}};
-  if (settings.plain_samples) {
-    parts.push_back({SurfaceKind::samples, UpAxis::none});
+  std::vector<Part> parts = {{settings.prepare.surface, SpinAxes::normals}};
+  if (settings.radial) {
+    parts.push_back({settings.prepare.surface, SpinAxes::radial});
   }
   if (settings.up != UpAxis::none) {
     const UpAxis up = settings.trained_for == TrainedFor::views ? UpAxis::z : settings.up;
-    parts.push_back({settings.prepare.surface, up});
+    parts.push_back({settings.prepare.surface, up_axes(up)});
+  }
+  if (settings.plain_samples) {
+    parts.push_back({SurfaceKind::samples, SpinAxes::normals});
   }
   return parts;
 }
 
-void turn_axes(UpAxis up, OrientedPoints& spin_points) {
-  if (up == UpAxis::none) {
-    return;
+Eigen::Vector3f mean_position(const OrientedPoints& points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    sum += points.position(i).cast<double>();
   }
-  const Eigen::Vector3f axis = Eigen::Vector3f::Unit(static_cast<int>(up) - static_cast<int>(UpAxis::x));
+  return (sum / static_cast<double>(points.size())).cast<float>();
+}
+
+// A spin point at the very middle keeps its normal.
+void turn_outwards(const Eigen::Vector3f& middle, OrientedPoints& spin_points) {
+  for (std::size_t i = 0; i < spin_points.size(); ++i) {
+    const Eigen::Vector3f outwards = spin_points.position(i) - middle;
+    if (outwards.squaredNorm() > 0.0F) {
+      spin_points.set(i, spin_points.position(i), outwards.stableNormalized());
+    }
+  }
+}
+
+void turn_upwards(SpinAxes up, OrientedPoints& spin_points) {
+  const Eigen::Vector3f axis = Eigen::Vector3f::Unit(static_cast<int>(up) - static_cast<int>(SpinAxes::x));
   for (std::size_t i = 0; i < spin_points.size(); ++i) {
     spin_points.set(i, spin_points.position(i), axis);
+  }
+}
+
+void turn_axes(SpinAxes axes, PreparedObject& object) {
+  if (axes == SpinAxes::radial) {
+    turn_outwards(mean_position(object.surface), object.spin_points);
+  } else if (axes != SpinAxes::normals) {
+    turn_upwards(axes, object.spin_points);
   }
 }
 
@@ -80,7 +111,7 @@ Preparation prepare_part(const Object& shape, const Settings& settings, const Pa
   PrepareSettings prepare_settings = settings.prepare;
   prepare_settings.surface = part.surface;
   Preparation result{prepare(shape, prepare_settings, seed), settings.spin};
-  turn_axes(part.axes, result.object.spin_points);
+  turn_axes(part.axes, result.object);
   result.params.bin_size = prepared_bin_size(shape, result.object, settings);
   result.params.validate();  // an absolute size may vanish beside a huge object
   return result;
@@ -88,7 +119,7 @@ Preparation prepare_part(const Object& shape, const Settings& settings, const Pa
 
 // Whether the points of `next` are those of `part`, but for the axes.
 bool same_points(const Part& part, const Part& next) {
-  return part.surface == next.surface && part.axes == UpAxis::none;
+  return part.surface == next.surface;
 }
 
 FeatureVector encoded(const Preparation& preparation, const Encoding& encoding, Stopwatch& watch, StageSeconds& spent) {
@@ -153,7 +184,7 @@ FeatureVector describe(const Object& object, const Settings& settings, std::uint
     FeatureVector mean;
     for (int draw = 0; draw < settings.draws; ++draw) {
       if (settings.draws == 1 && k > 0 && same_points(parts[k - 1], part)) {
-        turn_axes(part.axes, preparation.object.spin_points);
+        turn_axes(part.axes, preparation.object);
       } else {
         preparation = prepare_part(object, settings, part, seed_of_draw(seed, draw));
       }

@@ -55,13 +55,22 @@ inline Preparation prepare_object(const Object& object, const Settings& settings
   return prepare_object(object, settings, points_seed(settings));
 }
 
+// Which way the axes of a part's spin images point.
+enum class SpinAxes {
+  normals,  // along the normals of the spin points
+  radial,   // away from the mean of the surface points
+  x,        // up, which is this axis of the file
+  y,
+  z,
+};
+
 // What one part of an object's feature vector is made of, in one draw of its points.
 struct PreparedPart {
   Preparation preparation;
   SurfaceKind surface = SurfaceKind::external;
-  UpAxis axes = UpAxis::none;  // which way the axes of the spin images point; none: along the normals
-  std::size_t part = 0;        // its place in the feature vector: all parts are of one length
-  float factor = 1.0F;         // what its encoding is multiplied by, before the draws of a part are added up
+  SpinAxes axes = SpinAxes::normals;
+  std::size_t part = 0;  // its place in the feature vector: all parts are of one length
+  float factor = 1.0F;   // what its encoding is multiplied by, before the draws of a part are added up
 };
 
 // All parts of the feature vector that describe gives of the object, in their order, draw by draw. Deterministic.

@@ -1,5 +1,7 @@
 #include "spincat/describe/describe_tasks.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <new>
 #include <optional>
@@ -7,6 +9,7 @@
 
 #include "spincat/describe/packed_features.h"
 #include "spincat/describe/packed_limits.h"
+#include "spincat/describe/packed_matrix.h"
 #include "spincat/describe/packed_settings.h"
 #include "spincat/describe/rank_problems.h"
 #include "spincat/describe/stopwatch.h"
@@ -14,6 +17,7 @@
 #include "spincat/encode/encoding.h"
 #include "spincat/error.h"
 #include "spincat/io/read_object.h"
+#include "spincat/judge/fixed_product.h"
 
 namespace spincat {
 namespace {
@@ -22,21 +26,27 @@ namespace {
 struct DescribeContext {
   int views = 1;
   std::uint64_t rows_to_keep = 0;  // of so many objects; 0: none
+  FeatureMatrix basis;             // without rows: none
   ReadLimits limits;
   Settings settings;
 };
 
 void fields(auto& archive, MessageOf<DescribeContext> auto& context) {
-  auto& [views, rows_to_keep, limits, settings] = context;
-  archive(views, rows_to_keep, limits, settings);
+  auto& [views, rows_to_keep, basis, limits, settings] = context;
+  archive(views, rows_to_keep, basis, limits, settings);
 }
 
 // From so many spin points on, an object is spread over ranks by itself.
 constexpr int kDenseSpinPoints = 8 * static_cast<int>(kSpinImageBlock * 8);
 
-Work describe_work(const Settings& settings, int rows, const ReadLimits& limits) {
-  return [settings, rows, limits](std::string_view file) {
-    return pack(describe_object([&] { return read_listed_object(file, limits); }, rows, describe_copies(settings)));
+Work describe_work(const Settings& settings, int rows, const FeatureBasis& basis, const ReadLimits& limits) {
+  return [settings, rows, basis, limits](std::string_view file) {
+    Described described =
+        describe_object([&] { return read_listed_object(file, limits); }, rows, describe_copies(settings));
+    if (basis) {
+      project(*basis, described);
+    }
+    return pack(described);
   };
 }
 
@@ -53,6 +63,9 @@ void describe_by_points(TaskFarm& farm, const DescribeJob& job, const DeliverDes
   for (std::size_t i = 0; i < job.files; ++i) {
     Described one = describe_object([&] { return read_listed_object(job.file(i), job.limits); }, job.views,
                                     describe_copies(job.settings, encoder));
+    if (job.basis) {
+      project(*job.basis, one);
+    }
     std::vector<std::vector<float>> numbers;
     std::vector<FeatureBytes> values;
     for (FeatureVector& features : one.features) {
@@ -66,6 +79,25 @@ void describe_by_points(TaskFarm& farm, const DescribeJob& job, const DeliverDes
 }
 
 }  // namespace
+
+void project(const FeatureMatrix& basis, Described& described) {
+  FeatureMatrix rows(static_cast<Eigen::Index>(described.features.size()), basis.cols());
+  for (std::size_t i = 0; i < described.features.size(); ++i) {
+    const std::vector<float>& values = described.features[i].values;
+    if (static_cast<Eigen::Index>(values.size()) != basis.cols()) {
+      described.problem = fmt::format("gives {} features where others give {}", values.size(), basis.cols());
+      described.features.clear();
+      return;
+    }
+    std::ranges::copy(values, rows.row(static_cast<Eigen::Index>(i)).data());
+  }
+  const FeatureMatrix coordinates = product_with_transposed<float>(rows, basis);
+  for (std::size_t i = 0; i < described.features.size(); ++i) {
+    const auto row = coordinates.row(static_cast<Eigen::Index>(i));
+    described.features[i].values.assign(row.begin(), row.end());
+    described.features[i].blocks = {static_cast<std::uint32_t>(coordinates.cols())};
+  }
+}
 
 DescribeRow describe_copies(const Settings& settings, const EncodePrepared& encoder) {
   return [&settings, encoder](const Object& object, int row, StageSeconds& seconds) {
@@ -173,8 +205,9 @@ EncodePrepared encode_on(TaskFarm& farm, const Settings& settings, WorkSplit spl
 
 RankWork make_describe_work(std::string_view context, std::optional<TableRows>& rows,
                             const std::function<void()>& make_room) {
-  const auto [views, rows_to_keep, limits, settings] = unpack<DescribeContext>(context);
-  RankWork result = throwing_problems(describe_work(settings, views, limits));
+  auto [views, rows_to_keep, basis, limits, settings] = unpack<DescribeContext>(context);
+  const FeatureBasis shared = basis.rows() > 0 ? std::make_shared<const FeatureMatrix>(std::move(basis)) : nullptr;
+  RankWork result = throwing_problems(describe_work(settings, views, shared, limits));
   if (rows_to_keep > 0) {
     make_room();
     rows.emplace(rows_to_keep, static_cast<std::size_t>(views));
@@ -197,7 +230,8 @@ void describe_files(TaskFarm& farm, const DescribeJob& job, const DeliverDescrib
   Job tasks;
   tasks.kind = kDescribeTasks;
   tasks.context = [&](Packer& packer) {
-    packer(DescribeContext{job.views, job.keeps_rows ? job.files : 0, job.limits, job.settings});
+    packer(DescribeContext{job.views, job.keeps_rows ? job.files : 0, job.basis ? *job.basis : FeatureMatrix(),
+                           job.limits, job.settings});
   };
   if (job.keeps_rows) {
     tasks.broadcasts = [&](std::string_view result) -> std::optional<bool> {
@@ -208,7 +242,7 @@ void describe_files(TaskFarm& farm, const DescribeJob& job, const DeliverDescrib
       return job.keeps_rows(values[0].length());
     };
   }
-  tasks.work = describe_work(job.settings, job.views, job.limits);
+  tasks.work = describe_work(job.settings, job.views, job.basis, job.limits);
   tasks.is_worth_keeping = has_no_problem;
   tasks.tasks = job.files;
   tasks.task = [&](std::size_t i) { return job.file(i).string(); };

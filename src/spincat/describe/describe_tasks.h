@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,6 +19,7 @@
 #include "spincat/encode/feature_vector.h"
 #include "spincat/geometry/object.h"
 #include "spincat/io/read_limits.h"
+#include "spincat/judge/gram.h"
 #include "spincat/parallel/task.h"
 #include "spincat/parallel/task_farm.h"
 #include "spincat/settings/settings.h"
@@ -35,6 +37,13 @@ struct Described {
   ObjectKind kind = ObjectKind::mesh;   // where it could be read
   StageSeconds seconds;
 };
+
+// Directions (M x D) along which features are handed on as M coordinates, where D numbers of every row are too many to
+// keep; none: the features themselves.
+using FeatureBasis = std::shared_ptr<const FeatureMatrix>;
+
+// The features of an object as coordinates; where there are not D of them that is its problem.
+void project(const FeatureMatrix& basis, Described& described);
 
 // Describes one object: `read` gives it, and `describe_row` describes its rows, the first of which is the object itself
 // (or its first view). What is wrong with the object becomes its problem; so does memory that does not suffice for it.
@@ -70,6 +79,7 @@ struct DescribeJob {
   // Asked with the length of the first feature vector: whether all ranks keep all of them (TableRows). Not asked
   // where spin points are shared out. Empty: no.
   std::function<bool(std::size_t length)> keeps_rows;
+  FeatureBasis basis = {};
 };
 
 // Reads and describes every file and hands the results on in order, on the calling thread. Many objects with few spin

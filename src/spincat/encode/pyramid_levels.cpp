@@ -6,6 +6,16 @@
 #include <span>
 
 namespace spincat {
+namespace {
+
+// The surface's normal at a spin point, whose image may have another axis. Spin points are the first points of a
+// surface that was drawn.
+Eigen::Vector3f normal_at(const OrientedPoints& surface, const OrientedPoints& spin_points, std::size_t k) {
+  const bool is_of_surface = k < surface.size() && surface.position(k) == spin_points.position(k);
+  return is_of_surface ? surface.normal(k) : spin_points.normal(k);
+}
+
+}  // namespace
 
 std::vector<std::uint8_t> bands_of(const OrientedPoints& surface, const OrientedPoints& spin_points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -19,7 +29,7 @@ std::vector<std::uint8_t> bands_of(const OrientedPoints& surface, const Oriented
   for (std::size_t k = 0; k < count; ++k) {
     const Eigen::Vector3d d = spin_points.position(k).cast<double>() - g;
     r[k] = d.norm();
-    h[k] = std::abs(d.dot(spin_points.normal(k).cast<double>()));
+    h[k] = std::abs(d.dot(normal_at(surface, spin_points, k).cast<double>()));
   }
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0U);

@@ -14,8 +14,9 @@ inline constexpr std::size_t kLevels = 3;  // of the pyramid: single cells, sums
 inline constexpr std::size_t kBands = 4;   // into which the spin points are sorted
 
 // Which of the four bands each spin point belongs to. With g the mean of the surface points, r = |p - g| and
-// h = |(p - g) . n|: halves by r, then each half into halves by h. Both turn with the object, so that the same place on
-// a turned object stays in the same band.
+// h = |(p - g) . n|, n the surface's normal at p (the spin image's axis where p is none of its first points): halves by
+// r, then each half into halves by h. Both turn with the object, so that the same place on a turned object stays in the
+// same band.
 std::vector<std::uint8_t> bands_of(const OrientedPoints& surface, const OrientedPoints& spin_points);
 
 // The pyramid of one channel of an image of W x W: three images of W/4 x W/4 cells around alpha = beta = 0, whose cells

@@ -215,6 +215,11 @@ std::vector<ViewsRates> rates_by_views(std::span<const Trial> trials, std::uint3
   return rates;
 }
 
+double share_below(std::span<const double> values, double least) {
+  const auto below = std::ranges::count_if(values, [&](double value) { return value < least; });
+  return values.empty() ? 0.0 : static_cast<double>(below) / static_cast<double>(values.size());
+}
+
 ConfidenceMeasure measure_of(std::span<const Trial> trials) {
   ConfidenceMeasure measure;
   std::vector<double> right;
@@ -222,9 +227,10 @@ ConfidenceMeasure measure_of(std::span<const Trial> trials) {
   std::vector<double> unknown_objects;
   double known_or_unknown = 0.0;
   for (const Trial& trial : trials) {
-    std::vector<double> known = trial.right;
-    known.insert(known.end(), trial.wrong.begin(), trial.wrong.end());
-    known_or_unknown += area_under_curve(known, trial.unknown_objects);
+    known_or_unknown += area_under_curve(trial.known, trial.unknown_objects);
+    measure.turned_away += share_below(trial.known, trial.least_known) / static_cast<double>(trials.size());
+    measure.strangers_turned_away +=
+        share_below(trial.unknown_objects, trial.least_known) / static_cast<double>(trials.size());
     right.insert(right.end(), trial.right.begin(), trial.right.end());
     wrong.insert(wrong.end(), trial.wrong.begin(), trial.wrong.end());
     measure.unknown_objects = static_cast<std::uint32_t>(trial.unknown_objects.size());

@@ -90,9 +90,12 @@ struct SeedRates {
 // that they were not trained on.
 struct ConfidenceMeasure {
   double right_or_wrong = 0.5;    // tested objects named right against those named wrong, of all splits together
-  double known_or_unknown = 0.5;  // tested objects against unknown objects, the mean over the splits
+  double known_or_unknown = 0.5;  // by how known they are: tested objects against unknown objects, the mean over splits
   double mean_confidence = 0.0;   // over the tested objects of all splits; close to their overall rate when calibrated
   std::uint32_t unknown_objects = 0;  // how many could be read, each counted by its views
+  double turned_away = 0.0;           // the share of tested objects that classify calls unknown; the rates above are of
+                                      // the names that it would give them
+  double strangers_turned_away = 0.0;  // the share of unknown objects
 };
 
 // Rates by the number of views of an object over which votes are summed.

@@ -17,9 +17,9 @@
 namespace spincat {
 namespace {
 
-std::size_t feature_length(const EvaluationData& data) {
-  return static_cast<std::size_t>(data.table.features.cols());
-}
+// Up to here each split learns its directions from its own training objects alone. Above, they are those of a sample of
+// all objects, without their categories; what is learned from categories is learned from training objects always.
+constexpr std::size_t kMostWholeRows = 16'384;
 
 // Views are made of the objects as they are.
 void check_form(const Settings& settings, const EvaluateOptions& options) {
@@ -41,13 +41,27 @@ EvaluationData describe_known(const Dataset& dataset, std::size_t splits, const 
                               const EvaluateOptions& options, const Execution& execution, BroadcastRows& broadcast) {
   EvaluationData data;
   data.dataset = dataset.name;
-  data.table = describe_dataset(dataset, settings, execution, count_trainings(splits, options.calibrates()), broadcast);
+  // Strangers are told where confidence is measured, and nowhere else.
+  Dataset learned = dataset;
+  Settings learning = settings;
+  if (!options.calibrates()) {
+    learned.others.clear();
+    learning.background = 0;
+  }
+  data.table = describe_dataset(learned, learning, execution, count_trainings(splits, options.calibrates()),
+                                kMostWholeRows, broadcast);
+  data.basis =
+      std::exchange(data.table.basis, {});  // judges are to see coordinates, as what is tested is described by them
   std::vector<DatasetObject> unknown_objects;
   for (const std::filesystem::path& file : options.unknown_objects) {
+    if (std::ranges::find(dataset.others, file) != dataset.others.end()) {
+      throw InputError(file.string(), "is among the others to learn from and among the unknown objects to test with");
+    }
     unknown_objects.push_back({file, 0, ""});
   }
   // As they are: whether a stranger is turned or sampled, it stays a stranger.
-  data.unknown_objects = describe_tested(unknown_objects, feature_length(data), settings, TestOptions{}, execution);
+  data.unknown_objects =
+      describe_tested(unknown_objects, data.basis, data.table.features.cols(), settings, TestOptions{}, execution);
   return data;
 }
 
@@ -72,7 +86,8 @@ EvaluationData describe_for_evaluation(const Dataset& dataset, const Settings& s
       describe_known(part, splits_in_sight(options, part.objects.size()), settings, options, execution, broadcast);
   data.left_out = std::move(left_out);
   if (options.test.form != TestForm::as_is) {
-    data.tested = describe_tested(data.table.objects, feature_length(data), settings, options.test, execution);
+    data.tested =
+        describe_tested(data.table.objects, data.basis, data.table.features.cols(), settings, options.test, execution);
   }
   data.wall_seconds = watch.lap();
   return data;
@@ -93,7 +108,8 @@ EvaluationData describe_across(const Dataset& train, const Dataset& test, const 
   data.test_dataset = tested.name;
   data.across = true;
   data.left_out = std::move(left_out);
-  data.tested = describe_tested(tested.objects, feature_length(data), settings, options.test, execution);
+  data.tested =
+      describe_tested(tested.objects, data.basis, data.table.features.cols(), settings, options.test, execution);
   if (learned.name != tested.name) {  // else they are the same
     data.table.skipped.insert(data.table.skipped.end(), tested.skipped.begin(), tested.skipped.end());
   }

@@ -21,6 +21,7 @@ struct EvaluationData {
   std::string dataset;
   std::string test_dataset;
   FeatureTable table;               // to learn from, and to test unless there is `tested`
+  FeatureMatrix basis;              // of the table's columns, where these are coordinates (FeatureTable::basis)
   std::optional<TestTable> tested;  // the objects of another data set, or those of `table` in another form
   bool across = false;              // `tested` is another data set
   TestTable unknown_objects;

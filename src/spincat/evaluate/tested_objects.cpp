@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
+#include <memory>
+#include <utility>
 
 #include "spincat/describe/describe_tasks.h"
 #include "spincat/describe/packed_limits.h"
+#include "spincat/describe/packed_matrix.h"
 #include "spincat/describe/packed_settings.h"
 #include "spincat/describe/rank_problems.h"
 #include "spincat/error.h"
@@ -60,11 +63,12 @@ struct TestedContext {
   Settings settings;
   TestOptions options;
   ReadLimits limits;
+  FeatureMatrix basis;  // without rows: none
 };
 
 void fields(auto& archive, MessageOf<TestedContext> auto& context) {
-  auto& [settings, options, limits] = context;
-  archive(settings, options, limits);
+  auto& [settings, options, limits, basis] = context;
+  archive(settings, options, limits, basis);
 }
 
 Described describe_task(const TestedTask& task, const TestedContext& context) {
@@ -73,11 +77,16 @@ Described describe_task(const TestedTask& task, const TestedContext& context) {
     const Object object = read_listed_object(std::filesystem::path(task.file), context.limits);
     return in_test_form(object, context.options, task.seed);
   };
-  return describe_object(read, settings.tested_rows(), describe_copies(settings));
+  Described described = describe_object(read, settings.tested_rows(), describe_copies(settings));
+  if (context.basis.rows() > 0) {
+    project(context.basis, described);
+  }
+  return described;
 }
 
-Work tested_work(const TestedContext& context) {
-  return [context](std::string_view task) { return pack(describe_task(unpack<TestedTask>(task), context)); };
+Work tested_work(TestedContext given) {
+  const auto context = std::make_shared<const TestedContext>(std::move(given));
+  return [context](std::string_view task) { return pack(describe_task(unpack<TestedTask>(task), *context)); };
 }
 
 }  // namespace
@@ -86,8 +95,9 @@ Work make_tested_work(std::string_view context) {
   return throwing_problems(tested_work(unpack<TestedContext>(context)));
 }
 
-TestTable describe_tested(std::span<const DatasetObject> objects, std::size_t feature_length, const Settings& settings,
-                          const TestOptions& options, const Execution& execution) {
+TestTable describe_tested(std::span<const DatasetObject> objects, const FeatureMatrix& basis, Eigen::Index length,
+                          const Settings& settings, const TestOptions& options, const Execution& execution) {
+  const auto feature_length = static_cast<std::size_t>(length);
   const FarmExecution run(execution);
   TestTable table;
   table.objects.assign(objects.begin(), objects.end());
@@ -98,7 +108,7 @@ TestTable describe_tested(std::span<const DatasetObject> objects, std::size_t fe
   const std::uint64_t stream = derive_seed(settings.seed, kTestFormPurpose);
   Job job;
   job.kind = kTestedTasks;
-  const TestedContext context{settings, options, run.limits};
+  const TestedContext context{settings, options, run.limits, basis};
   job.context = [&](Packer& packer) { packer(context); };
   job.work = tested_work(context);
   job.is_worth_keeping = has_no_problem;

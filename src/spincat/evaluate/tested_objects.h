@@ -33,11 +33,11 @@ struct TestTable {
 };
 
 // Reads and describes objects, without copies, or as many views of them as settings.tested_rows() says; those that
-// cannot be read or do not give `feature_length` numbers get their reason instead, or are an error where the execution
-// is strict. Each object is altered by a seed of its own, made from settings.seed and its place. The result does not
-// depend on the execution but for its limits.
-TestTable describe_tested(std::span<const DatasetObject> objects, std::size_t feature_length, const Settings& settings,
-                          const TestOptions& options, const Execution& execution);
+// cannot be read or do not give `length` numbers (as coordinates along the basis, where it has rows) get their reason
+// instead, or are an error where the execution is strict. Each object is altered by a seed of its own, made from
+// settings.seed and its place. The result does not depend on the execution but for its limits.
+TestTable describe_tested(std::span<const DatasetObject> objects, const FeatureMatrix& basis, Eigen::Index length,
+                          const Settings& settings, const TestOptions& options, const Execution& execution);
 
 // Its work, for other ranks.
 Work make_tested_work(std::string_view context);

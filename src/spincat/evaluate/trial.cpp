@@ -10,13 +10,12 @@
 #include "spincat/parallel/journal.h"
 #include "spincat/parallel/packing.h"
 #include "spincat/train/packed_table.h"
-#include "spincat/train/table_familiarity.h"
 
 namespace spincat {
 
 void fields(auto& archive, MessageOf<Trial> auto& trial) {
-  auto& [confusion, by_views, named, right, wrong, unknown_objects] = trial;  // all of them
-  archive(confusion, by_views, named, right, wrong, unknown_objects);
+  auto& [confusion, by_views, named, right, wrong, known, unknown_objects, least_known] = trial;  // all of them
+  archive(confusion, by_views, named, right, wrong, known, unknown_objects, least_known);
 }
 
 // Not what only people look at.
@@ -93,25 +92,24 @@ Trial run_trial(const TrialData& data, JudgeTrainer& trainer, const Split& split
                 bool measure_confidence) {
   const FeatureTable& table = data.table;
   const std::size_t n = table.categories.size();
-  const auto [judges, calibration] = measure_confidence ? trainer.train_calibrated(split.train, settings.seed)
-                                                        : CalibratedJudges{trainer.train(split.train), {}};
-  const Familiarity familiarity = measure_confidence ? familiarity_of(table, split.train) : Familiarity{};
-  const auto confidence = [&, &calibration = calibration](const Ballot& ballot, std::span<const float> features) {
-    return calibration.confidence(ballot, familiarity.of(features, ballot.winner));
-  };
+  const auto [judges, calibration, known] = measure_confidence ? trainer.train_calibrated(split.train, settings.seed)
+                                                               : CalibratedJudges{trainer.train(split.train), {}, {}};
   const Tested tested{data};
   const std::vector<std::uint32_t> groups = view_counts(tested.views());
   Trial trial;
+  trial.least_known = known.least;
   trial.confusion.assign(n, std::vector<std::uint32_t>(n, 0));
   trial.by_views.assign(groups.size(), trial.confusion);
   for (const std::uint32_t object : split.test) {
     const std::uint32_t truth = tested.category(object);
     std::vector<Ballot> ballots;
     for (std::uint32_t view = 0; view < tested.views(); ++view) {
-      const std::span<const float> features = tested.features(object, view);
-      ballots.push_back(judges.vote(features));
+      const std::vector<float> seen = judges.seen(tested.features(object, view));
+      ballots.push_back(judges.vote_on(seen));
       if (measure_confidence) {
-        (ballots.back().winner == truth ? trial.right : trial.wrong).push_back(confidence(ballots.back(), features));
+        const double confidence = calibration.probability(static_cast<double>(ballots.back().weakest_margin));
+        (ballots.back().winner == truth ? trial.right : trial.wrong).push_back(confidence);
+        trial.known.push_back(known.known(seen));
       }
     }
     trial.named.push_back(sum_votes(ballots).winner);
@@ -124,7 +122,7 @@ Trial run_trial(const TrialData& data, JudgeTrainer& trainer, const Split& split
     for (std::uint32_t view = 0; view < data.unknown_objects.rows_per_object; ++view) {
       if (data.unknown_objects.problems[object].empty()) {
         const std::span<const float> features = data.unknown_objects.features_of(object, view);
-        trial.unknown_objects.push_back(confidence(judges.vote(features), features));
+        trial.unknown_objects.push_back(known.known(judges.seen(features)));
       }
     }
   }

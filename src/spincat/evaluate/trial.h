@@ -32,11 +32,13 @@ struct Trial {
   Confusion confusion;
   std::vector<Confusion> by_views;   // for each of view_counts(): votes summed over so many views of an object
   std::vector<std::uint32_t> named;  // for each of split.test: the category it was given
-  // The confidences, where they are measured: in the tested objects by whether they were named right, and in unknown
-  // objects.
+  // Where confidence is measured: that in the tested objects, by whether they were named right; how known these are,
+  // and how known unknown objects are; and what is the least for an object not to be turned away.
   std::vector<double> right;
   std::vector<double> wrong;
+  std::vector<double> known;
   std::vector<double> unknown_objects;
+  double least_known = 0.0;
 };
 
 // Over how many views votes are summed, of so many that there are of an object: 1, 2, 4, ..., and all. Nothing where

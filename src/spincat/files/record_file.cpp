@@ -219,7 +219,7 @@ void pack_pieces(std::string_view kind, std::uint32_t version, const json& conte
 
 }  // namespace
 
-json RecordBlobs::add(std::span<const float> numbers) {
+json RecordBlobs::add(std::span<const std::byte> numbers) {
   blobs_.emplace_back(reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes());
   return json::binary(json::binary_t::container_type(), blobs_.size() - 1);
 }

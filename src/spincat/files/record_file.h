@@ -12,6 +12,7 @@
 // Numbers are unsigned and little-endian.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -27,7 +28,8 @@ namespace spincat {
 class RecordBlobs {
  public:
   // What stands for the blob in the record's content, as a member of an object (not in a list).
-  nlohmann::json add(std::span<const float> numbers);
+  nlohmann::json add(std::span<const float> numbers) { return add(std::as_bytes(numbers)); }
+  nlohmann::json add(std::span<const std::byte> numbers);
   std::string_view bytes(const nlohmann::json& place) const;  // of what add() gave
   std::size_t size() const { return blobs_.size(); }
   static bool is_place(const nlohmann::json& value);

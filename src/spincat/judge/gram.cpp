@@ -3,14 +3,10 @@
 #include <algorithm>
 
 #include "spincat/geometry/parallel_for.h"
+#include "spincat/judge/fixed_product.h"
 
 namespace spincat {
 namespace {
-
-// Fixed, and small enough that Eigen does not cut a product further by the sizes of this machine's caches: the order in
-// which an entry is summed must not depend on the machine.
-constexpr Eigen::Index kTile = 64;
-constexpr Eigen::Index kDepth = 128;
 
 Eigen::MatrixXf tile_of(const Eigen::Ref<const FeatureMatrix>& features, Eigen::Index i, Eigen::Index j) {
   const Eigen::Index rows = std::min(kTile, features.rows() - i);

@@ -108,7 +108,17 @@ JudgeList TrainingSet::list_with_supports(std::span<const Judge> judges) const {
   return list;
 }
 
+FeatureMatrix TrainingSet::margins_of_folded(std::span<const Judge> judges, std::span<const std::uint32_t> rows) const {
+  const JudgeList folded = list(judges);
+  FeatureMatrix margins = product_with_transposed<float>(FeatureMatrix(features_(rows, Eigen::all)), folded.weights);
+  margins.rowwise() += folded.bias.transpose();
+  return margins;
+}
+
 FeatureMatrix TrainingSet::margins(std::span<const Judge> judges, std::span<const std::uint32_t> rows) const {
+  if (shared_gram_.empty()) {
+    return margins_of_folded(judges, rows);
+  }
   std::vector<std::uint32_t> supports;
   for (const Judge& judge : judges) {
     supports.insert(supports.end(), judge.rows.begin(), judge.rows.end());
@@ -135,33 +145,47 @@ void JudgeList::put(std::size_t l, const FoldedJudge& judge) {
   support_vectors[l] = judge.support_vectors;
 }
 
+std::vector<float> JudgeList::seen(std::span<const float> features) const {
+  if (!codebook.empty()) {
+    return codebook.count(features);
+  }
+  return whitening.empty() ? std::vector<float>(features.begin(), features.end()) : whitening.place(features);
+}
+
 FeatureMatrix JudgeList::margins(std::span<const std::span<const float>> objects) const {
-  const bool linear = kernel.kind == KernelKind::linear;
-  std::vector<Eigen::VectorXf> seen;  // of each object, what the weights are for
+  std::vector<std::vector<float>> all;
   for (const std::span<const float> object : objects) {
-    const std::vector<float> counted = codebook.empty() ? std::vector<float>() : codebook.count(object);
-    const std::span<const float> features = codebook.empty() ? object : std::span(counted);
-    if (linear) {
-      seen.emplace_back(Eigen::Map<const Eigen::VectorXf>(features.data(), static_cast<Eigen::Index>(features.size())));
+    all.push_back(seen(object));
+  }
+  return margins_on(all);
+}
+
+FeatureMatrix JudgeList::margins_on(std::span<const std::vector<float>> seen_features) const {
+  std::vector<Eigen::VectorXf> inputs;  // of each object, what the weights are for
+  for (const std::vector<float>& features : seen_features) {
+    if (kernel.kind == KernelKind::linear) {
+      inputs.emplace_back(
+          Eigen::Map<const Eigen::VectorXf>(features.data(), static_cast<Eigen::Index>(features.size())));
     } else {
-      seen.push_back(kernel.row(supports, features));
+      inputs.push_back(kernel.row(supports, features));
     }
   }
-  FeatureMatrix margins(static_cast<Eigen::Index>(objects.size()), static_cast<Eigen::Index>(size()));
+  FeatureMatrix margins(static_cast<Eigen::Index>(inputs.size()), static_cast<Eigen::Index>(size()));
   constexpr Eigen::Index kJudgesAtOnce = 8;  // stay in the cache for all objects
   for (Eigen::Index first = 0; first < margins.cols(); first += kJudgesAtOnce) {
     const Eigen::Index last = std::min(first + kJudgesAtOnce, margins.cols());
     for (Eigen::Index i = 0; i < margins.rows(); ++i) {
       for (Eigen::Index l = first; l < last; ++l) {
-        margins(i, l) = weights.row(l).dot(seen[static_cast<std::size_t>(i)]) + bias[l];
+        margins(i, l) = weights.row(l).dot(inputs[static_cast<std::size_t>(i)]) + bias[l];
       }
     }
   }
   return margins;
 }
 
-Ballot JudgeList::vote(std::span<const float> features) const {
-  const FeatureMatrix all = margins({&features, 1});
+Ballot JudgeList::vote_on(std::span<const float> seen_features) const {
+  const std::vector<float> one(seen_features.begin(), seen_features.end());
+  const FeatureMatrix all = margins_on({&one, 1});
   return count_votes(categories, {all.data(), size()});
 }
 

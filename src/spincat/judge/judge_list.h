@@ -12,6 +12,7 @@
 #include "spincat/judge/gram.h"
 #include "spincat/judge/kernel.h"
 #include "spincat/judge/settings.h"
+#include "spincat/judge/whitening.h"
 
 namespace spincat {
 
@@ -67,11 +68,13 @@ class TrainingSet {
   JudgeList list(std::span<const Judge> judges) const;
 
   // What judges say of some rows, from the inner products that they share: a row for each, a column for each judge. As
-  // the list's margins up to rounding, and sooner. Deterministic. Precondition: there are shared inner products.
+  // the list's margins up to rounding, and sooner. Deterministic. Precondition: there are shared inner products, or the
+  // kernel is linear.
   FeatureMatrix margins(std::span<const Judge> judges, std::span<const std::uint32_t> rows) const;
 
  private:
   JudgeList list_with_supports(std::span<const Judge> judges) const;
+  FeatureMatrix margins_of_folded(std::span<const Judge> judges, std::span<const std::uint32_t> rows) const;
 
   const FeatureMatrix& features_;
   const GramMatrices& shared_gram_;
@@ -83,7 +86,7 @@ class TrainingSet {
 // All judges, folded into one matrix: voting is one matrix-vector product, after one row of the kernel where that is
 // not linear.
 //
-//   linear:  margin of judge l on object x:   weights.row(l) . x + bias(l)
+//   linear:  margin of judge l on object x:   weights.row(l) . x + bias(l)   (x: its place, where there is a whitening)
 //   rbf:     margin of judge l on object x:   weights.row(l) . kernel.row(supports, x) + bias(l)
 struct JudgeList {
   std::uint32_t categories = 0;
@@ -91,6 +94,7 @@ struct JudgeList {
   Eigen::VectorXf bias;                        // L
   std::vector<std::uint32_t> support_vectors;  // L: how many each judge leans on
   Kernel kernel;
+  Whitening whitening;     // where judges learn in a small space: x is then the object's place in it
   Codebook codebook;       // where the encoding gives local features: x is then what it counts among them
   FeatureMatrix supports;  // S x D: the support vectors of all judges, each once; none for the linear kernel
 
@@ -104,15 +108,23 @@ struct JudgeList {
     return static_cast<std::size_t>(kernel.kind == KernelKind::linear ? weights.cols() : supports.cols());
   }
 
-  // How many features an object needs: D, or local features for the codebook.
-  std::size_t feature_length() const { return codebook.empty() ? seen_length() : codebook.input_length(); }
+  // How many features an object needs: D, or what the whitening or the codebook takes.
+  std::size_t feature_length() const {
+    return !codebook.empty() ? codebook.input_length() : !whitening.empty() ? whitening.input_length() : seen_length();
+  }
+
+  // What the kernel sees of an object with these features: D numbers.
+  std::vector<float> seen(std::span<const float> features) const;
 
   // Every judge's margin for feature vectors of feature_length() numbers each: a row for each of them. Deterministic,
-  // and the same for one vector and for many; many at a time are faster, for the judges are long.
+  // and the same for one vector and for many; many at a time are faster.
   FeatureMatrix margins(std::span<const std::span<const float>> objects) const;
+  // The same for what seen() gives of them.
+  FeatureMatrix margins_on(std::span<const std::vector<float>> seen_features) const;
 
-  // Every judge's word on one feature vector. Deterministic.
-  Ballot vote(std::span<const float> features) const;
+  // Every judge's word on one feature vector, or on what seen() gives of it. Deterministic.
+  Ballot vote(std::span<const float> features) const { return vote_on(seen(features)); }
+  Ballot vote_on(std::span<const float> seen_features) const;
 };
 
 }  // namespace spincat

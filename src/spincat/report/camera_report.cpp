@@ -61,9 +61,11 @@ Json object_of(const SeenObject& object, const std::vector<std::string>& categor
   json["status"] = object.unknown ? "unknown" : "named";
   json["category"] = categories[object.ballot.winner];
   json["confidence"] = object.confidence;
+  json["known"] = object.known;
   json["votes"] = by_category(categories, object.ballot.count);
   json["fused"] = {{"category", object.unknown ? "unknown" : categories[object.fused.winner]},
                    {"confidence", object.fused_confidence},
+                   {"known", object.fused_known},
                    {"votes", by_category(categories, object.fused.count)},
                    {"frames", object.fused.ballots}};
   if (object.unknown) {

@@ -62,10 +62,13 @@ Json left_out(const std::vector<LeftOutCategory>& categories) {
 }
 
 Json confidence(const ConfidenceMeasure& measure) {
-  Json json = {{"mean", measure.mean_confidence}, {"right_or_wrong_auc", measure.right_or_wrong}};
+  Json json = {{"mean", measure.mean_confidence},
+               {"right_or_wrong_auc", measure.right_or_wrong},
+               {"turned_away", measure.turned_away}};
   if (measure.unknown_objects > 0) {
     json["known_or_unknown_auc"] = measure.known_or_unknown;
     json["unknown_objects"] = measure.unknown_objects;
+    json["unknown_objects_turned_away"] = measure.strangers_turned_away;
   }
   return json;
 }

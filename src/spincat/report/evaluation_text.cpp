@@ -179,6 +179,10 @@ std::string confidence_text(const Evaluation& e) {
     text += fmt::format(", {:.3f} for known or unknown ({} unknown objects)", e.confidence->known_or_unknown,
                         e.confidence->unknown_objects);
   }
+  text += fmt::format("\nturned away      {:.1f} % of the tested objects", 100.0 * e.confidence->turned_away);
+  if (e.confidence->unknown_objects > 0) {
+    text += fmt::format(", {:.1f} % of the unknown objects", 100.0 * e.confidence->strangers_turned_away);
+  }
   return text + "\n";
 }
 

@@ -30,6 +30,7 @@ std::string classification_json(const std::string& file, const Classification& c
   Json json = {{"file", file},
                {"category", rejected ? "unknown" : model.categories()[ballot.winner]},
                {"confidence", classification.confidence},
+               {"known", classification.known},
                {"votes", by_category(model.categories(), ballot.count)},
                {"milliseconds", 1e3 * (s.read + s.prepare + s.spin + s.encode + s.judge)}};
   if (rejected) {

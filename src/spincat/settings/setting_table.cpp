@@ -34,19 +34,17 @@ std::string needs_words(const Settings& s) {
   return counts_words(s) ? "" : fmt::format("the encoding {} learns no codebook", s.encoding);
 }
 
-std::string needs_copies(const Settings& s) {
-  if (s.trained_for == TrainedFor::views) {
-    return "judges that learn by views are shown no copies";
-  }
-  return s.copies > 0 ? "" : "there are no copies (copies is 0)";
-}
-
 std::string is_not_by_views(const Settings& s) {
-  return s.trained_for == TrainedFor::views ? needs_copies(s) : "";
+  return s.trained_for == TrainedFor::views ? "judges that learn by views are shown no copies" : "";
 }
 
-std::string any_needs_copies(const Settings& s) {
-  return s.trained_for == TrainedFor::any ? needs_copies(s) : "";
+std::string needs_copies(const Settings& s) {
+  return s.trained_for == TrainedFor::meshes && s.copies == 0 ? "there are no copies (copies is 0)"
+                                                              : is_not_by_views(s);
+}
+
+std::string needs_dimensions(const Settings& s) {
+  return s.judge.dimensions > 0 ? "" : "strangers are told in the small space of judges alone (dimensions is 0)";
 }
 
 std::string needs_views(const Settings& s) {
@@ -55,16 +53,28 @@ std::string needs_views(const Settings& s) {
              : fmt::format("judges that are trained for {} see no views", name_of(s.trained_for));
 }
 
-// Local features cannot be joined with others.
+// Local features cannot be joined with others. Features in a random order have no small space.
 void bring_encoding(Settings& s) {
   if (counts_words(s)) {
+    s.radial = false;
     s.plain_samples = false;
     s.draws = 1;
+  }
+  if (counts_words(s) || !make_encoding(s.encoding)->pools()) {
+    s.judge.dimensions = 0;
+    s.judge.c = default_c(s.judge);
   }
 }
 
 void bring_kernel(Settings& s) {
-  s.judge.c = default_c(s.judge.kernel);
+  if (s.judge.kernel == KernelKind::rbf) {
+    s.judge.dimensions = 0;
+  }
+  s.judge.c = default_c(s.judge);
+}
+
+void bring_dimensions(Settings& s) {
+  s.judge.c = default_c(s.judge);
 }
 
 void bring_views(Settings& s) {
@@ -115,6 +125,8 @@ const Setting kTable[] = {
      kNone, [](Settings& s) -> SettingMember { return &s.spin.angle_test; }},
     {"encoding", "encoding", "NAME", "Way from spin images to a feature vector", features, kNone,
      [](Settings& s) -> SettingMember { return &s.encoding; }, nullptr, bring_encoding},
+    {"radial", "radial", "BOOL", "Add features of spin images whose axes point away from the object's middle", features,
+     kNone, [](Settings& s) -> SettingMember { return &s.radial; }},
     {"plain_samples", "plain-samples", "BOOL", "Add features of points drawn evenly from all faces, hidden ones too",
      features, kNone, [](Settings& s) -> SettingMember { return &s.plain_samples; }},
     {"up", "up", "AXIS", "Axis that points up in all objects: adds features of spin images whose axes point up",
@@ -125,6 +137,10 @@ const Setting kTable[] = {
      [](Settings& s) -> SettingMember { return &s.words; }, needs_words},
     {"kernel", "kernel", "NAME", "Kernel of the judges' SVMs; rbf is over the encoding's blocks, and brings its C",
      training, kNone, [](Settings& s) -> SettingMember { return &s.judge.kernel; }, nullptr, bring_kernel},
+    {"dimensions", "dimensions", "N",
+     "Dimensions of the small space that judges learn in (within-class whitening); 0: none; brings their C", training,
+     JudgeSettings::kDimensions, [](Settings& s) -> SettingMember { return &s.judge.dimensions; }, nullptr,
+     bring_dimensions},
     {"c", "c", "C", "C of the judges' SVMs: the price of an error in training", training, JudgeSettings::kC,
      [](Settings& s) -> SettingMember { return &s.judge.c; }},
     {"class_weights", "class-weights", "BOOL", "Weigh errors so that a large category does not outvote a small one",
@@ -132,12 +148,15 @@ const Setting kTable[] = {
     {"copies", "copies", "N", "Stretched copies of each training object", training, Settings::kCopies,
      [](Settings& s) -> SettingMember { return &s.copies; }, is_not_by_views},
     {"trained_for", "for", "KIND",
-     "What the model will name; any: point clouds too (training takes twice as long), views: what a camera sees",
-     training, kNone, [](Settings& s) -> SettingMember { return &s.trained_for; }, any_needs_copies, bring_trained_for},
+     "What the model will name; meshes: no point clouds, views: what a camera sees",
+     training, kNone, [](Settings& s) -> SettingMember { return &s.trained_for; }, nullptr, bring_trained_for},
     {"views", "views", "N",
      "Learn what a depth camera sees, by so many rendered views of each object (30: better, takes longer); brings "
      "--up y and fewer, smaller images",
      training, Settings::kViews, [](Settings& s) -> SettingMember { return &s.views; }, needs_views, bring_views},
+    {"background", "background", "N",
+     "Shapes of no category that strangers are told by; 0: none, every object gets a name", training,
+     Settings::kBackground, [](Settings& s) -> SettingMember { return &s.background; }, needs_dimensions},
     {"stretch", "stretch", "AMOUNT", "How far copies are stretched: each axis by exp(U(-AMOUNT, AMOUNT))", training,
      Settings::kStretch, [](Settings& s) -> SettingMember { return &s.stretch; }, needs_copies},
     {"seed", "seed", "N", "Seed of every random choice", points, kNone,

@@ -5,11 +5,14 @@
 
 #include <memory>
 
+#include "spincat/background/background_shapes.h"
 #include "spincat/encode/encoding.h"
 #include "spincat/error.h"
 
 namespace spincat {
 namespace {
+
+static_assert(Settings::kBackground.high == kBackgroundShapes);
 
 Settings default_preset() {
   Settings s;
@@ -18,7 +21,12 @@ Settings default_preset() {
   s.spin.support_angle = 180.0;
   s.spin.binning = Binning::nearest;
   s.spin.angle_test = AngleTest::soft;
+  s.radial = true;
   s.plain_samples = true;
+  s.trained_for = TrainedFor::any;
+  s.background = kBackgroundShapes;
+  s.judge.dimensions = 200;
+  s.judge.c = default_c(s.judge);
   return s;
 }
 
@@ -50,8 +58,13 @@ void Settings::validate() const {
   check_range("copies", copies, kCopies);
   check_range("views", views, kViews);
   check_range("stretch", stretch, kStretch);
-  if (checked->gives_local_features() && (plain_samples || up != UpAxis::none || draws > 1)) {
-    throw InputError(fmt::format("the encoding {} knows no plain samples, no up axis and only one draw", encoding));
+  check_range("background", background, kBackground);
+  if (checked->gives_local_features() && (radial || plain_samples || up != UpAxis::none || draws > 1)) {
+    throw InputError(
+        fmt::format("the encoding {} knows no radial part, no plain samples, no up axis and only one draw", encoding));
+  }
+  if (checked->gives_local_features() && judge.dimensions > 0) {
+    throw InputError(fmt::format("the encoding {} learns a codebook instead of a small space (dimensions)", encoding));
   }
   if (trained_for == TrainedFor::views && up == UpAxis::none) {
     throw InputError("views of models need to know which axis points up (x, y or z)");
@@ -85,6 +98,7 @@ Settings trained_by_views(Settings settings, int views) {
   settings.trained_for = TrainedFor::views;
   settings.views = views;
   settings.up = UpAxis::y;
+  settings.radial = false;
   settings.plain_samples = false;  // nothing of a view is hidden
   settings.copies = 0;
   // More points, images and bins bring nothing here, and cost time with each frame (docs/guide/camera.md).

@@ -25,7 +25,7 @@ enum class BinSizeUnit {
 // What the judges are trained for.
 enum class TrainedFor {
   meshes,  // objects as the training files hold them
-  any,     // point clouds as well, exact or noisy: each training object is shown as clouds besides
+  any,     // point clouds as well: each training object is shown as an exact and as a noisy cloud besides
   views,   // what a depth camera sees: each training object is shown as rendered views (camera/render/views.h) alone
 };
 
@@ -40,29 +40,36 @@ struct Settings {
   // The feature vector is made of parts, joined and scaled to length 1: the encoding of the spin images of the points
   // that prepare.surface says, and those that are switched on here.
   bool plain_samples = false;  // the same of points drawn evenly from all faces, hidden ones too
+  bool radial = false;         // the same points with spin images whose axes point away from the mean of the surface
+                               // points, instead of along the normals
   UpAxis up = UpAxis::none;    // the same with spin images whose axes all point up, instead of along the normals; with
                                // views the axis of the models (clouds are upright: z), and not none
   int draws = 1;               // every part is the mean over so many draws of points
   int words = 256;             // of the codebook that the bag-of-features encoding learns
   JudgeSettings judge;
   int copies = 6;                               // stretched copies of each training object
-  TrainedFor trained_for = TrainedFor::meshes;  // any: besides, as many stretched copies turned into clouds
+  TrainedFor trained_for = TrainedFor::meshes;  // any: besides, kClouds stretched copies turned into clouds
   int views = 12;                               // of each training object where trained_for says so
+  int background = 0;                           // shapes of no category that strangers are told by, besides the
+                                                // others that a data set has; it takes a small space (judge.dimensions)
   double stretch = 0.2;                         // each axis of a copy is stretched by exp(U(-stretch, stretch))
   std::uint64_t seed = 1;                       // of every random choice
+
+  static constexpr int kClouds = 2;
 
   static constexpr Range kDraws{1, 100};
   static constexpr Range kWords{2, 65'536};
   static constexpr Range kCopies{0, 100};
   static constexpr Range kViews{1, 1'000};
   static constexpr Range kStretch{0.0, 2.0};
+  static constexpr Range kBackground{0, 536};  // so many shapes there are
 
   // How many parts a feature vector has, all of one length.
-  int parts() const { return 1 + (plain_samples ? 1 : 0) + (up != UpAxis::none ? 1 : 0); }
+  int parts() const { return 1 + (radial ? 1 : 0) + (plain_samples ? 1 : 0) + (up != UpAxis::none ? 1 : 0); }
 
   // How many feature vectors a training object gives: its own and its copies', or its views'.
   int training_rows() const {
-    return trained_for == TrainedFor::views ? views : 1 + copies * (trained_for == TrainedFor::any ? 2 : 1);
+    return trained_for == TrainedFor::views ? views : 1 + copies + (trained_for == TrainedFor::any ? kClouds : 0);
   }
 
   // How many of them show the object as it may be met, the first ones: itself alone, or all views.

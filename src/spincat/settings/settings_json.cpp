@@ -56,10 +56,7 @@ struct Field {
 };
 
 Field field_of(const Json& json, const std::string& name) {
-  auto at = json.find(name);
-  if (at == json.end() && name == "trained_for") {
-    at = json.find("taught_for");  // as the first models call it
-  }
+  const auto at = json.find(name);
   if (at == json.end()) {
     throw InputError(fmt::format("setting '{}' is missing", name));
   }

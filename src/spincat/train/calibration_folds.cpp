@@ -6,7 +6,6 @@
 #include "spincat/dataset/splits.h"
 #include "spincat/geometry/random.h"
 #include "spincat/judge/ballot.h"
-#include "spincat/train/table_familiarity.h"
 
 namespace spincat {
 namespace {
@@ -19,6 +18,14 @@ std::vector<std::uint32_t> picked(std::span<const std::uint32_t> objects, std::s
   result.reserve(indices.size());
   for (const std::uint32_t i : indices) {
     result.push_back(objects[i]);
+  }
+  return result;
+}
+
+std::vector<std::uint32_t> every_fifth(std::span<const std::uint32_t> rows, std::size_t first) {
+  std::vector<std::uint32_t> result;
+  for (std::size_t i = first; i < rows.size(); i += kCalibrationFolds) {
+    result.push_back(rows[i]);
   }
   return result;
 }
@@ -36,6 +43,7 @@ std::vector<TrainingPlan> calibration_folds(const FeatureTable& table, std::span
     labels.push_back(table.objects[object].category);
     ++in_category[labels.back()];
   }
+  const std::vector<std::uint32_t> background = table.rows_of_background();
   std::vector<TrainingPlan> trainings;
   for (Split& fold : stratified_folds(labels, kCalibrationFolds, derive_seed(seed, kCalibrationPurpose))) {
     std::vector<std::uint32_t> judged;
@@ -43,14 +51,21 @@ std::vector<TrainingPlan> calibration_folds(const FeatureTable& table, std::span
       (in_category[labels[i]] > 1 ? judged : fold.train).push_back(i);
     }
     std::ranges::sort(fold.train);
+    const std::size_t number = trainings.size();
     if (!judged.empty()) {
-      trainings.push_back({picked(objects, fold.train), picked(objects, judged)});
+      trainings.push_back({picked(objects, fold.train), picked(objects, judged), every_fifth(background, number)});
     }
   }
   return trainings;
 }
 
 void FoldCounter::add(const TrainingPlan& fold, const JudgesTask& task, std::string_view result, bool is_last) {
+  if (task.is_of_known_judge()) {
+    const auto [known, strangers] = unpack<KnownMargins>(result);
+    known_.insert(known_.end(), known.begin(), known.end());
+    strangers_.insert(strangers_.end(), strangers.begin(), strangers.end());
+    return;
+  }
   const FeatureMatrix part = unpack_margins(result, fold.held_out.size() * table_.tested_rows);
   const auto categories = static_cast<Eigen::Index>(table_.categories.size());
   margins_.resize(part.rows(), categories * (categories - 1) / 2);  // does nothing but for the first task of the fold
@@ -61,27 +76,15 @@ void FoldCounter::add(const TrainingPlan& fold, const JudgesTask& task, std::str
   }
 }
 
-Calibration FoldCounter::calibration() const {
-  return fit_calibration(votes_, strangers_);
-}
-
-// Right and wrong votes of the judges of a fold, and their votes on the same objects as unknown objects.
+// Right and wrong votes of the judges of a fold.
 void FoldCounter::count(const TrainingPlan& fold) {
   const auto categories = static_cast<std::uint32_t>(table_.categories.size());
-  const Familiarity familiarity = familiarity_of(table_, fold.train);
   for (std::size_t i = 0; i < fold.held_out.size() * table_.tested_rows; ++i) {
-    const std::uint32_t object = fold.held_out[i / table_.tested_rows];
-    const std::span<const float> features =
-        table_.features_of(object, static_cast<std::uint32_t>(i % table_.tested_rows));
-    const std::uint32_t truth = table_.objects[object].category;
+    const std::uint32_t truth = table_.objects[fold.held_out[i / table_.tested_rows]].category;
     const auto row = static_cast<Eigen::Index>(i);
     const Ballot ballot =
         count_votes(categories, {margins_.row(row).data(), static_cast<std::size_t>(margins_.cols())});
-    votes_.push_back({ballot.weakest_margin, ballot.winner == truth, familiarity.of(features, ballot.winner)});
-    if (categories > 2) {
-      const Ballot as_stranger = ballot_without(ballot, truth);
-      strangers_.push_back({as_stranger.weakest_margin, false, familiarity.of(features, as_stranger.winner)});
-    }
+    votes_.push_back({static_cast<double>(ballot.weakest_margin), ballot.winner == truth});
   }
 }
 

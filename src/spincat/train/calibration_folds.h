@@ -6,7 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "spincat/judge/calibration.h"
+#include "spincat/judge/known_judge.h"
+#include "spincat/judge/platt_scaling.h"
 #include "spincat/train/feature_table.h"
 #include "spincat/train/train_tasks.h"
 
@@ -28,16 +29,19 @@ class FoldCounter {
   // `is_last`: of the tasks of this fold.
   void add(const TrainingPlan& fold, const JudgesTask& task, std::string_view result, bool is_last);
 
-  // Of all folds so far; that of none takes every vote as it comes.
-  Calibration calibration() const;
+  // Of the votes of all folds so far; that of none takes every vote as it comes.
+  PlattScaling calibration() const { return fit_platt(votes_); }
+  // The same for the judge of known and unknown.
+  void calibrate(KnownJudge& judge) const { calibrate_known(known_, strangers_, judge); }
 
  private:
   void count(const TrainingPlan& fold);
 
   const FeatureTable& table_;
-  FeatureMatrix margins_;  // of the fold that is coming in
-  std::vector<JudgedObject> votes_;
-  std::vector<JudgedObject> strangers_;
+  FeatureMatrix margins_;          // of the fold that is coming in
+  std::vector<Scored> votes_;      // the winner's smallest margin over all its judges
+  std::vector<double> known_;      // margins of the judge of known and unknown: of held-out objects and their copies
+  std::vector<double> strangers_;  // of the background that was held out
 };
 
 }  // namespace spincat

@@ -1,6 +1,7 @@
 #include "spincat/train/feature_table.h"
 
 #include <cstddef>
+#include <numeric>
 
 namespace spincat {
 
@@ -27,7 +28,14 @@ std::vector<std::uint32_t> FeatureTable::row_labels() const {
   for (const DatasetObject& object : objects) {
     labels.insert(labels.end(), rows_per_object, object.category);
   }
+  labels.insert(labels.end(), background_rows, static_cast<std::uint32_t>(categories.size()));
   return labels;
+}
+
+std::vector<std::uint32_t> FeatureTable::rows_of_background() const {
+  std::vector<std::uint32_t> rows(background_rows);
+  std::iota(rows.begin(), rows.end(), static_cast<std::uint32_t>(features.rows()) - background_rows);
+  return rows;
 }
 
 std::vector<std::uint32_t> FeatureTable::rows_of(std::span<const std::uint32_t> some_objects) const {

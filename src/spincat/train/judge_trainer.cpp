@@ -23,6 +23,10 @@ class JudgeCollector {
       : trainings_(trainings), pairs_(categories * (categories - 1) / 2) {}
 
   void add(const JudgesTask& task, std::string_view result) {
+    if (task.is_of_known_judge()) {
+      known_ = unpack_known_judge(result);
+      return;
+    }
     if (!training().folds()) {
       std::ranges::move(unpack_judges(result), std::back_inserter(judges_));
       return;
@@ -33,6 +37,7 @@ class JudgeCollector {
     put_folded(result, task.first, *list_);
   }
 
+  KnownJudge take_known() { return std::move(known_); }
   JudgeList take() { return list_ ? *std::move(list_) : training().list(judges_); }
 
  private:
@@ -42,6 +47,7 @@ class JudgeCollector {
   std::size_t pairs_;
   std::optional<JudgeList> list_;  // where the training folds
   std::vector<Judge> judges_;      // where it does not
+  KnownJudge known_;
 };
 
 TaskFarm::Tick telling(const Progress& progress, const char* stage, std::size_t tasks) {
@@ -57,7 +63,9 @@ TaskFarm::Tick telling(const Progress& progress, const char* stage, std::size_t 
 JudgeTrainer::JudgeTrainer(const BroadcastTable& table, const JudgeSettings& settings, const Progress& progress)
     : where_(table), table_(table.table()), settings_(settings) {
   const std::size_t matrices = gram_columns(settings.kernel, table_.blocks, table_.features.cols()).size();
-  if (table_.local_size == 0 && fits_gram(table_.features.rows(), static_cast<Eigen::Index>(matrices))) {
+  const bool is_of_use = settings.dimensions > 0 ? learns_from_products(table_.features.cols(), settings.dimensions)
+                                                 : table_.local_size == 0;
+  if (is_of_use && fits_gram(table_.features.rows(), static_cast<Eigen::Index>(matrices))) {
     compute_gram(progress);
   }
 }
@@ -119,12 +127,15 @@ CalibratedJudges JudgeTrainer::do_trainings(std::span<const TrainingPlan> traini
     if (plan.held_out.empty()) {
       judges.add(tasks[i], result);
     } else {
-      const bool is_last = i + 1 == tasks.size() || tasks[i + 1].training != tasks[i].training;
+      const bool is_last =
+          i + 1 == tasks.size() || tasks[i + 1].training != tasks[i].training || tasks[i + 1].is_of_known_judge();
       folds.add(plan, tasks[i], result, is_last);
     }
   };
   where_.farm().run(job, telling(progress, "training judges", tasks.size()));
-  return {judges.take(), folds.calibration()};
+  CalibratedJudges result{judges.take(), folds.calibration(), judges.take_known()};
+  folds.calibrate(result.known);
+  return result;
 }
 
 }  // namespace spincat

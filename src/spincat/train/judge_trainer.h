@@ -7,8 +7,9 @@
 #include <span>
 
 #include "spincat/execution.h"
-#include "spincat/judge/calibration.h"
 #include "spincat/judge/judge_list.h"
+#include "spincat/judge/known_judge.h"
+#include "spincat/judge/platt_scaling.h"
 #include "spincat/parallel/task_farm.h"
 #include "spincat/train/broadcast_table.h"
 #include "spincat/train/feature_table.h"
@@ -20,7 +21,8 @@ struct TrainingPlan;
 // Judges, and how far their votes can be trusted.
 struct CalibratedJudges {
   JudgeList judges;
-  Calibration calibration;
+  PlattScaling calibration;  // of the winner's weakest margin
+  KnownJudge known;          // none where judges learn in no small space
 };
 
 // Trains on a table of features. The inner products of all its rows, which every judge needs, are computed once. Pairs
@@ -35,8 +37,8 @@ class JudgeTrainer {
   JudgeTrainer(const FeatureTable& table, const GramMatrices& gram, const JudgeSettings& settings, int threads);
 
   // The inner products of the whole table, which all judges use; empty when they would be too large to keep (above
-  // a gigabyte: 16,384 rows with one matrix), or when the table holds local features: judges then compute their own
-  // parts.
+  // a gigabyte: 16,384 rows with one matrix), when the table holds local features or as few columns as a small space:
+  // judges then compute their own parts.
   const GramMatrices& gram() const { return *gram_; }
 
   // Trains the judge of every pair of categories on the given objects and their copies. Where the table holds local
@@ -45,8 +47,8 @@ class JudgeTrainer {
   JudgeList train(std::span<const std::uint32_t> objects, const Progress& progress = {});
 
   // The same, and calibrates the confidence by five-fold cross-validation on the given objects alone: each (by all of
-  // its views, where it is shown by views) is judged by judges that were trained on the others, and once more as a
-  // stranger, without the judges that know its category. Categories with a single object are always trained on and
+  // its views, where it is shown by views) is judged by judges that were trained on the others; so is a fifth of the
+  // background. Categories with a single object are always trained on and
   // never judged. Fewer than five objects calibrate nothing.
   CalibratedJudges train_calibrated(std::span<const std::uint32_t> objects, std::uint64_t seed,
                                     const Progress& progress = {});

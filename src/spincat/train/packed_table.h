@@ -19,10 +19,12 @@ void fields(auto& archive, MessageOf<DatasetObject> auto& object) {
 
 // What judges are trained by, but for the features, which other ranks may have.
 void fields(auto& archive, MessageOf<FeatureTable> auto& table) {
-  auto& [objects, categories, skipped, features, blocks, local_size, words, seed, rows_per_object, tested_rows, parts,
-         encoding, kinds, seconds] = table;  // does not compile when a member is forgotten
-  static_cast<void>(std::tie(skipped, features, encoding, kinds, seconds));
-  archive(objects, categories, blocks, local_size, words, seed, rows_per_object, tested_rows, parts);
+  auto& [objects, categories, skipped, features, background_rows, other_rows, basis, blocks, local_size, words, seed,
+         rows_per_object, tested_rows, encoding, kinds, seconds] =
+      table;  // does not compile when a member is forgotten
+  static_cast<void>(std::tie(skipped, features, basis, encoding, kinds, seconds));
+  archive(objects, categories, background_rows, other_rows, blocks, local_size, words, seed, rows_per_object,
+          tested_rows);
 }
 
 }  // namespace spincat

@@ -9,7 +9,7 @@
 #include "spincat/train/broadcast_table.h"
 #include "spincat/train/describe_dataset.h"
 #include "spincat/train/judge_trainer.h"
-#include "spincat/train/table_familiarity.h"
+#include "spincat/train/learned_space.h"
 #include "spincat/train/worth_broadcasting.h"
 
 namespace spincat {
@@ -19,7 +19,7 @@ TrainResult train(const Dataset& dataset, const Settings& settings, const Execut
   const FarmExecution run(execution);
   const std::size_t trainings = count_trainings(1, true);
   BroadcastRows rows;
-  const FeatureTable table = describe_dataset(dataset, settings, run, trainings, rows);
+  const FeatureTable table = describe_dataset(dataset, settings, run, trainings, kMostSampleRows, rows);
   std::vector<std::uint32_t> objects(table.objects.size());
   std::iota(objects.begin(), objects.end(), 0U);
 
@@ -31,7 +31,7 @@ TrainResult train(const Dataset& dataset, const Settings& settings, const Execut
   CalibratedJudges trained = trainer.train_calibrated(objects, settings.seed, run.progress);
   model.judges = std::move(trained.judges);
   model.calibration = trained.calibration;
-  model.familiarity = familiarity_of(table, objects);
+  model.known = std::move(trained.known);
 
   // Keep what classifying needs to repeat all of this.
   model.settings = settings;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "spincat/describe/packed_matrix.h"
@@ -20,14 +21,20 @@ void fields(auto& archive, MessageOf<FoldedJudge> auto& judge) {
   archive(weights, bias, support_vectors);
 }
 
+void fields(auto& archive, MessageOf<KnownJudge> auto& judge) {
+  auto& [weights, bias, scaling, least] = judge;  // does not compile when a member is forgotten
+  static_cast<void>(std::tie(scaling, least));
+  archive(weights, bias);
+}
+
 void fields(auto& archive, MessageOf<JudgeSettings> auto& settings) {
-  auto& [kernel, c, class_weights] = settings;  // all of them
-  archive(kernel, c, class_weights);
+  auto& [kernel, dimensions, c, class_weights] = settings;  // all of them
+  archive(kernel, dimensions, c, class_weights);
 }
 
 void fields(auto& archive, MessageOf<TrainingPlan> auto& plan) {
-  auto& [train, held_out] = plan;
-  archive(train, held_out);
+  auto& [train, held_out, held_out_background] = plan;
+  archive(train, held_out, held_out_background);
 }
 
 namespace {
@@ -64,9 +71,22 @@ void fields(auto& archive, MessageOf<TrainingsContext> auto& context) {
   archive(ticket, settings, trainings);
 }
 
+std::string do_known_judge(const Training& training, const TrainingPlan& plan) {
+  const KnownJudge judge = training.train_known_judge(plan.held_out_background);
+  if (plan.held_out.empty()) {
+    return pack(judge);
+  }
+  return pack(KnownMargins{training.known_margins(judge, training.table().rows_of(plan.held_out)),
+                           training.known_margins(judge, plan.held_out_background)});
+}
+
 std::string do_judges(Trainings& trainings, std::string_view bytes) {
-  const auto [number, first, last] = unpack<JudgesTask>(bytes);
+  const auto task = unpack<JudgesTask>(bytes);
+  const auto [number, first, last] = task;
   const Training& training = trainings.training(number);
+  if (task.is_of_known_judge()) {
+    return do_known_judge(training, trainings.plan(number));
+  }
   const std::vector<CategoryPair> pairs = all_pairs(static_cast<std::uint32_t>(trainings.table().categories.size()));
   const std::vector<Judge> judges = training.train(std::span(pairs).subspan(first, last - first));
   const std::vector<std::uint32_t>& held_out = trainings.plan(number).held_out;
@@ -76,7 +96,7 @@ std::string do_judges(Trainings& trainings, std::string_view bytes) {
   Packer packer;
   if (training.folds()) {
     constexpr std::size_t kBesidesWeights = 32;  // bytes of a judge
-    const auto weights = static_cast<std::size_t>(trainings.table().features.cols());
+    const std::size_t weights = training.seen_length();
     packer.reserve(judges.size() * (weights * sizeof(float) + kBesidesWeights));
   }
   for (const Judge& judge : judges) {
@@ -146,6 +166,9 @@ std::vector<JudgesTask> judges_tasks(const FeatureTable& table, KernelKind kind,
     for (std::uint32_t first = 0; first < pairs; first += each) {
       tasks.push_back({training, first, std::min(first + each, pairs)});
     }
+    if (table.background_rows > 0) {
+      tasks.push_back({training, 0, 0});
+    }
   }
   return tasks;
 }
@@ -161,6 +184,10 @@ void put_folded(std::string_view result, std::uint32_t first, JudgeList& list) {
     list.support_vectors.at(static_cast<std::size_t>(l)) = judge.support_vectors;
     list.weights.row(l) = judge.weights;
   }
+}
+
+KnownJudge unpack_known_judge(std::string_view result) {
+  return unpack<KnownJudge>(result);
 }
 
 std::vector<Judge> unpack_judges(std::string_view result) {

@@ -12,6 +12,7 @@
 
 #include "spincat/describe/table_rows.h"
 #include "spincat/judge/judge_list.h"
+#include "spincat/judge/known_judge.h"
 #include "spincat/parallel/packing.h"
 #include "spincat/parallel/task.h"
 #include "spincat/train/broadcast_rows.h"
@@ -72,11 +73,13 @@ GramMatrices unfilled_gram(const FeatureTable& table, KernelKind kind);
 void put_strip(const GramTask& task, std::string_view result, GramMatrices& gram);
 Work gram_work(const FeatureTable& table, KernelKind kind);
 
-// Some judges of one of the trainings.
+// Some judges of one of the trainings; none of the pairs: its judge of known and unknown.
 struct JudgesTask {
   std::uint32_t training = 0;
   std::uint32_t first = 0;  // of all pairs
   std::uint32_t last = 0;
+
+  bool is_of_known_judge() const { return first == last; }
 };
 
 void fields(auto& archive, MessageOf<JudgesTask> auto& task) {
@@ -84,10 +87,23 @@ void fields(auto& archive, MessageOf<JudgesTask> auto& task) {
   archive(training, first, last);
 }
 
+// Margins of a fold's judge of known and unknown.
+struct KnownMargins {
+  std::vector<double> known;      // of the held-out objects and their copies
+  std::vector<double> strangers;  // of the background that was held out
+};
+
+void fields(auto& archive, MessageOf<KnownMargins> auto& margins) {
+  auto& [known, strangers] = margins;
+  archive(known, strangers);
+}
+
 std::vector<JudgesTask> judges_tasks(const FeatureTable& table, KernelKind kind,
                                      std::span<const TrainingPlan> trainings);
 // Of a training that folds: puts the judges into `list`, from judge `first` on.
 void put_folded(std::string_view result, std::uint32_t first, JudgeList& list);
+// Its judge of known and unknown, not yet calibrated.
+KnownJudge unpack_known_judge(std::string_view result);
 // Of one that does not.
 std::vector<Judge> unpack_judges(std::string_view result);
 // Margins of the judged objects: a row for each of `objects` (or of their views), a column for each judge of the task.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 
 #include "spincat/geometry/random.h"
 
@@ -47,12 +48,25 @@ Training::Training(const FeatureTable& table, const GramMatrices& gram, std::spa
                    const JudgeSettings& settings)
     : table_(table), has_gram_(!gram.empty()), settings_(settings) {
   const std::vector<std::uint32_t> rows = table.rows_of(objects);
+  const std::vector<std::uint32_t> labels = table.row_labels();
+  const auto categories = static_cast<std::uint32_t>(table.categories.size());
+  if (settings.dimensions > 0) {
+    rows_ = rows;
+    space_ = learn_space(table.features, gram, labels, rows, settings.dimensions);
+    training_.emplace(space_->places, no_gram_, Kernel{}, labels, rows, categories);
+    return;
+  }
   const bool local = table.local_size > 0;
   const FeatureMatrix& features = local ? learn_words(rows) : table.features;
   const std::vector<std::uint32_t> words = {static_cast<std::uint32_t>(counted_.cols())};
   const std::span<const std::uint32_t> blocks = local ? words : table.blocks;
-  training_.emplace(features, local ? counted_gram_ : gram, fit_kernel(settings.kernel, blocks, features, rows),
-                    table.row_labels(), rows, static_cast<std::uint32_t>(table.categories.size()));
+  training_.emplace(features, local ? counted_gram_ : gram, fit_kernel(settings.kernel, blocks, features, rows), labels,
+                    rows, categories);
+}
+
+std::size_t Training::seen_length() const {
+  const FeatureMatrix& seen = space_ ? space_->places : table_.local_size > 0 ? counted_ : table_.features;
+  return static_cast<std::size_t>(seen.cols());
 }
 
 // No products shared with other trainings: each has a codebook, and so features, of its own.
@@ -79,24 +93,60 @@ std::vector<Judge> Training::train(std::span<const CategoryPair> pairs) const {
 JudgeList Training::unfilled_list(std::size_t judges) const {
   JudgeList list = training_->unfilled_list(judges);
   list.codebook = codebook_;
+  if (space_) {
+    list.whitening = Whitening(after_basis(space_->whitening(table_.features), table_.basis));
+  }
   return list;
 }
 
 JudgeList Training::list(std::span<const Judge> judges) const {
   JudgeList list = training_->list(judges);
   list.codebook = codebook_;
+  if (space_) {
+    list.whitening = Whitening(after_basis(space_->whitening(table_.features), table_.basis));
+  }
   return list;
 }
 
-FeatureMatrix Training::margins(std::span<const Judge> judges, std::span<const std::uint32_t> objects) const {
-  if (has_gram_) {
-    std::vector<std::uint32_t> rows;
-    for (const std::uint32_t object : objects) {
-      for (std::uint32_t view = 0; view < table_.tested_rows; ++view) {
-        rows.push_back(object * table_.rows_per_object + view);
-      }
+KnownJudge Training::train_known_judge(std::span<const std::uint32_t> but) const {
+  std::vector<std::uint32_t> background;
+  std::ranges::set_difference(table_.rows_of_background(), but, std::back_inserter(background));
+  std::vector<RowOrigin> origins;
+  const std::vector<std::uint32_t> labels = table_.row_labels();
+  for (const std::uint32_t row : rows_) {
+    origins.push_back({labels[row], row / table_.rows_per_object});
+  }
+  // What the user says is of no category is taken for that.
+  const auto shapes = std::ranges::lower_bound(
+      background, static_cast<std::uint32_t>(table_.features.rows()) - table_.background_rows + table_.other_rows);
+  std::vector<std::uint32_t> unlike(background.begin(), shapes);
+  std::ranges::copy(unlike_known(space_->places, rows_, origins, {shapes, background.end()}),
+                    std::back_inserter(unlike));
+  return unlike.empty() ? KnownJudge{} : spincat::train_known_judge(space_->places, rows_, unlike);
+}
+
+std::vector<double> Training::known_margins(const KnownJudge& judge, std::span<const std::uint32_t> rows) const {
+  std::vector<double> margins;
+  for (const std::uint32_t row : judge.empty() ? std::span<const std::uint32_t>() : rows) {
+    const auto place = space_->places.row(row);
+    margins.push_back(static_cast<double>(judge.margin({place.data(), static_cast<std::size_t>(place.size())})));
+  }
+  return margins;
+}
+
+std::vector<std::uint32_t> Training::tested_rows_of(std::span<const std::uint32_t> objects) const {
+  std::vector<std::uint32_t> rows;
+  for (const std::uint32_t object : objects) {
+    for (std::uint32_t view = 0; view < table_.tested_rows; ++view) {
+      rows.push_back(object * table_.rows_per_object + view);
     }
-    return training_->margins(judges, rows);
+  }
+  return rows;
+}
+
+FeatureMatrix Training::margins(std::span<const Judge> judges, std::span<const std::uint32_t> objects) const {
+  if (has_gram_ || space_) {
+    return training_->margins(judges, tested_rows_of(objects));
   }
   std::vector<std::span<const float>> features;
   for (const std::uint32_t object : objects) {

@@ -16,6 +16,7 @@ namespace spincat {
 struct TrainingPlan {
   std::vector<std::uint32_t> train;
   std::vector<std::uint32_t> held_out;
+  std::vector<std::uint32_t> held_out_background = {};  // rows of the table
 };
 
 // What the judges of each training have in common is made when it is first needed: a rank may have none of a training.

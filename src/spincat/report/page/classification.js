@@ -12,6 +12,7 @@ const judges = el('div', { id: 'judges' });
 const place = el('span', { class: 'soft', id: 'place' });
 const kMostRows = 16;  // of the judges' matrix, until all are asked for
 const surfaceTexts = { external: 'points on the outside', samples: 'points on all faces', vertices: 'vertices' };
+const axesTexts = { normals: '', radial: ', axes away from the middle' };
 let current = 0;
 let partShown = 0;
 let allRows = false;
@@ -87,7 +88,7 @@ function strongestPoints(images, winner, runnerUp) {
 
 function partLabel(points, number, all) {
   const draws = all.filter((each) => each.surface === points.surface && each.axes === points.axes).length;
-  return (surfaceTexts[points.surface] || points.surface) + (points.axes === 'none' ? '' : ', axes along ' + points.axes) +
+  return (surfaceTexts[points.surface] || points.surface) + (axesTexts[points.axes] ?? ', axes along ' + points.axes) +
     (draws > 1 ? ', draw ' + (number % draws + 1) : '') + ' (' + points.spin_points + ')';
 }
 
@@ -150,8 +151,8 @@ function nameLines(object) {
   if (result.error) return [el('h2', {}, nameText(shortName(object))), el('p', { id: 'error' }, nameText(result.error))];
   const guess = result.best_guess || result.category;
   return [el('p', { class: 'soft' }, nameText(shortName(object)), ' is named'), el('div', { class: 'big', id: 'name' }, nameText(result.category)),
-    result.best_guess ? el('p', {}, 'not confident enough for ', nameText(result.best_guess)) : '',
-    el('p', {}, 'confidence ', el('b', { id: 'confidence' }, result.confidence.toFixed(2)), ', ',
+    result.best_guess ? el('p', {}, 'most like ', nameText(result.best_guess), ', but hardly of any category') : '',
+    el('p', {}, 'confidence ', el('b', { id: 'confidence' }, result.confidence.toFixed(2)), ', known ', el('b', {}, result.known.toFixed(2)), ', ',
       el('b', { id: 'votes' }, result.votes[guess] + ' of ' + (categories.length - 1)), ' votes, ', secondsText(result.milliseconds / 1e3)),
     result.kind_mismatch ? el('p', { id: 'kind-mismatch' }, 'This ', nameText(result.kind_mismatch), '.') : ''];
 }

@@ -220,6 +220,8 @@ TEST(DescribeDataset, PutsOthersAndShapesBelowTheObjects) {
   const FeatureTable table = describe_dataset(dataset, settings, {.threads = 2});
   EXPECT_EQ(table.background_rows, 12U + 2U);
   EXPECT_EQ(table.other_rows, 2U);
+  ASSERT_EQ(table.skipped.size(), 1U);
+  EXPECT_EQ(table.skipped[0].file, dir / "absent.off");
   EXPECT_EQ(table.features.rows(), static_cast<Eigen::Index>(table.objects.size() * table.rows_per_object + 14));
   const std::vector<float> first = describe(test::box(1, 9, 1), settings).values;
   const auto row = table.features.row(table.rows_of_background().front());

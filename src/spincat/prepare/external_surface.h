@@ -16,10 +16,4 @@ namespace spincat {
 // Precondition: the mesh is normalised (within distance 1 of the origin). Deterministic for one state of `random`.
 SurfacePoints external_surface(const Mesh& mesh, Random& random);
 
-// Draws `count` points without replacement, each with a probability that falls with the number of points around it (in
-// the same cell of edge 0.04 and with a normal in the same octant), so that the result is spread evenly over the
-// surface. In random order: the first k of them are themselves such a draw. All points, in random order, when there
-// are no more than `count`. Deterministic for one state of `random`.
-SurfacePoints even_out(const SurfacePoints& points, std::size_t count, Random& random);
-
 }  // namespace spincat

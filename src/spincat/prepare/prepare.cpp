@@ -10,12 +10,15 @@
 #include <vector>
 
 #include "spincat/geometry/random.h"
+#include "spincat/prepare/cloud_points.h"
 #include "spincat/prepare/dust.h"
+#include "spincat/prepare/even_out.h"
 #include "spincat/prepare/external_surface.h"
 #include "spincat/prepare/lone_points.h"
 #include "spincat/prepare/normalise.h"
 #include "spincat/prepare/normals.h"
 #include "spincat/prepare/repeats.h"
+#include "spincat/prepare/roughness.h"
 #include "spincat/prepare/surface_samples.h"
 
 namespace spincat {
@@ -27,7 +30,10 @@ enum Purpose : std::uint64_t { kSurface = 1, kStretch = 2 };
 // Fewer points than this from outside (objects thinner than a pixel) say too little: all faces are sampled instead.
 constexpr std::size_t kFewestExternalPoints = 64;
 
-constexpr std::size_t kMoreThanDrawn = 4;  // times as many points have their normals estimated
+// A mesh with so many faces whose neighbours are so far from being in one plane is rough: a scan, not a shape that
+// somebody drew.
+constexpr std::size_t kFewestOfRough = 1000;
+constexpr double kRoughFold = 20.0;  // degrees
 
 // The surface found for an object, in a frame of moderate size, before the spin points are chosen.
 struct Surface {
@@ -43,11 +49,18 @@ void shuffle_points(SurfacePoints& points, Random& random) {
   }
 }
 
+bool is_rough(const Mesh& mesh) {
+  return mesh.triangles.size() >= kFewestOfRough && median_fold(mesh) > kRoughFold;
+}
+
 // `mesh` is normalised and has area.
 SurfacePoints mesh_points(const Mesh& mesh, const PrepareSettings& settings, Random& random) {
   const auto count = static_cast<std::size_t>(settings.points);
   if (settings.surface == SurfaceKind::external) {
-    const SurfacePoints seen = external_surface(mesh, random);
+    SurfacePoints seen = external_surface(mesh, random);
+    if (is_rough(mesh)) {
+      seen = with_normals_of_neighbours(seen, settings, random);
+    }
     if (seen.positions.size() >= kFewestExternalPoints) {
       return even_out(seen, count, random);
     }
@@ -60,48 +73,10 @@ SurfacePoints mesh_points(const Mesh& mesh, const PrepareSettings& settings, Ran
   return points;
 }
 
-// The given normals where they are known, else estimated from the neighbours and oriented.
-std::vector<Vec3> cloud_normals(const PointCloud& cloud, const PrepareSettings& settings) {
-  const auto known = [](const Vec3& n) { return n.allFinite() && !n.isZero(0.0); };
-  if (!cloud.normals.empty() && std::ranges::all_of(cloud.normals, known)) {
-    std::vector<Vec3> given = cloud.normals;
-    for (Vec3& n : given) {
-      n.stableNormalize();
-    }
-    return given;
-  }
-  std::vector<Vec3> normals = estimated_normals(cloud.points, settings.neighbours);
-  if (cloud.sensor) {
-    orient_towards(cloud.points, *cloud.sensor, normals);
-  } else if (settings.orientation == NormalOrientation::outward) {
-    orient_outwards(cloud.points, normals);
-  }
-  return normals;
-}
-
-// So many of a dense cloud's points, evenly spread, that normals are not estimated for a million points of which two
-// thousand are drawn: from neighbours that lie further apart, noise counts for less. Clouds with normals stay.
-PointCloud thinned(PointCloud cloud, std::size_t count, Random& random) {
-  if (cloud.points.size() <= count || !cloud.normals.empty()) {
-    return cloud;
-  }
-  const std::vector<Vec3> no_normals(cloud.points.size(), Vec3::Zero());
-  cloud.points = even_out({cloud.points, no_normals}, count, random).positions;
-  return cloud;
-}
-
 Surface cloud_surface(const PointCloud& given, const PrepareSettings& settings, Random& random) {
   const PointCloud object = without_lone_points(given);
   const Similarity similarity = unit_similarity(object.points);
-  PointCloud cloud = transformed(object, similarity);
-  if (settings.surface != SurfaceKind::vertices) {
-    cloud = thinned(std::move(cloud), kMoreThanDrawn * static_cast<std::size_t>(settings.points), random);
-  }
-  SurfacePoints points{cloud.points, cloud_normals(cloud, settings)};
-  if (settings.surface != SurfaceKind::vertices) {
-    points = even_out(points, static_cast<std::size_t>(settings.points), random);
-  }
-  return {std::move(points), similarity};
+  return {cloud_points(transformed(object, similarity), settings, random), similarity};
 }
 
 Surface mesh_surface(const Mesh& given, const PrepareSettings& settings, Random& random) {

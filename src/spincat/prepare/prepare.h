@@ -10,7 +10,7 @@
 #pragma GCC visibility push(default)
 namespace spincat {
 
-// Which points stand for the surface of a mesh. (A point cloud is its own surface.)
+// Which points stand for the surface of a mesh. (A cloud's points are its surface, but for `external`.)
 enum class SurfaceKind {
   vertices,  // the vertices with their vertex normals: the paper's way
   samples,   // points drawn evenly from all faces
@@ -46,11 +46,13 @@ struct PreparedObject {
 };
 
 // Prepares a mesh or a cloud. Meshes without any area are treated as the cloud of their vertices. Repeated points of a
-// cloud count once, points that stand alone (lone_points.h) and dust far from a mesh (dust.h) not at all. Where an
-// object has fewer points than spin points are asked for, SurfaceKind::vertices repeats them, so that an observation
-// keeps its length (the paper's concatenation needs that), and the other kinds use what is there. Deterministic: the
-// same object, settings and seed give the same points, on any number of threads. Throws InputError (without a file
-// name) when the object has no extent: no points, or all at one place.
+// cloud count once, points that stand alone (lone_points.h) and dust far from a mesh (dust.h) not at all. Faces of a
+// rough mesh (roughness.h) tell where the surface is, and their neighbours what its normals are. Where an object has
+// fewer points than spin points are asked for, SurfaceKind::vertices repeats them, so that an observation keeps its
+// length (the paper's concatenation needs that), SurfaceKind::external puts points between those of a cloud
+// (cloud_points.h), and SurfaceKind::samples uses what is there. Deterministic: the same object, settings and seed give
+// the same points, on any number of threads. Throws InputError (without a file name) when the object has no extent: no
+// points, or all at one place.
 PreparedObject prepare(const Object& object, const PrepareSettings& settings, std::uint64_t seed);
 
 // The training copy number `copy` of an object: each axis stretched by exp(U(-amount, amount)). Deterministic.

@@ -55,7 +55,7 @@ struct Settings {
   double stretch = 0.2;                         // each axis of a copy is stretched by exp(U(-stretch, stretch))
   std::uint64_t seed = 1;                       // of every random choice
 
-  static constexpr int kClouds = 2;
+  static constexpr int kClouds = 3;
 
   static constexpr Range kDraws{1, 100};
   static constexpr Range kWords{2, 65'536};

@@ -86,6 +86,7 @@ Background describe_background(const Dataset& dataset, const Settings& settings,
   if (others + shapes == 0) {
     return {};
   }
+  Background background;
   TableRows rows(others + shapes, kRows);
   std::vector<std::uint32_t> described;
   const auto file = [&](std::size_t i) -> const std::filesystem::path& { return dataset.others[i]; };
@@ -97,15 +98,18 @@ Background describe_background(const Dataset& dataset, const Settings& settings,
     if (run.strict && values.empty()) {
       throw InputError(dataset.others[i].string(), one.problem);
     }
-    if (!values.empty()) {
+    if (values.empty()) {
+      background.skipped.push_back({dataset.others[i], one.problem});
+    } else {
       rows.put(i, values);
       described.push_back(static_cast<std::uint32_t>(i));
     }
   };
   describe_files(*run.farm, job, keep, run.ticking("describing others", others));
-  const auto own = static_cast<std::uint32_t>(described.size());
+  background.others = static_cast<std::uint32_t>(described.size());
   describe_shapes(settings, run, basis, others, rows, described);
-  return {rows.take(described), own};
+  background.rows = rows.take(described);
+  return background;
 }
 
 Work make_background_work(std::string_view context) {

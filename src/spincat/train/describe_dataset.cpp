@@ -253,10 +253,11 @@ FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, 
     table.basis = *basis;
   }
   if (has_space) {
-    const auto [background, others] = describe_background(dataset, settings, run, basis);
-    table.background_rows = static_cast<std::uint32_t>(background.rows());
-    table.other_rows = others;
-    append_rows(background, table.features);
+    const Background background = describe_background(dataset, settings, run, basis);
+    table.background_rows = static_cast<std::uint32_t>(background.rows.rows());
+    table.other_rows = background.others;
+    table.skipped.insert(table.skipped.end(), background.skipped.begin(), background.skipped.end());
+    append_rows(background.rows, table.features);
   }
   return table;
 }

@@ -48,6 +48,8 @@ def _rows(keypoints: Any) -> Any:
                 f"keypoints: expected points and normals of one shape (K, 3), found {positions.shape} and {normals.shape}"
             )
         return np.hstack([positions, normals])
+    if isinstance(keypoints, (list, tuple)) and not keypoints:
+        return np.empty(0, np.int64)
     if isinstance(keypoints, np.ndarray) and keypoints.dtype == bool:
         return np.flatnonzero(keypoints)
     return keypoints

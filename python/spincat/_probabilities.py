@@ -30,6 +30,8 @@ def with_confidence(
     shares = np.exp(-high[:, None] * gaps)
     shares[rows, winners] = 0
     rest = shares.sum(axis=1, keepdims=True)
-    others = np.divide(shares, rest, out=np.zeros_like(shares), where=rest > 0) * (1 - wanted)[:, None]
-    others[rows, winners] = wanted
-    return others
+    result = np.zeros_like(scores)
+    np.divide(shares, rest, out=result, where=rest > 0)
+    result *= (1 - wanted)[:, None]
+    result[rows, winners] = wanted
+    return result

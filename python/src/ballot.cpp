@@ -112,7 +112,9 @@ py::dict explain_ballot(const NamedItem& ballot) {
 }  // namespace
 
 void bind_ballot(py::module_& module) {
-  py::class_<NamedItem>(module, "Ballot")
+  py::class_<NamedItem>(
+      module, "Ballot",
+      "The vote on one object: what every judge said, and what came of it. Classifier.ballots makes them.")
       .def_property_readonly("name", &name, "The category, or 'unknown' where the object is less known than `reject`.")
       .def_property_readonly(
           "best_guess", [](const NamedItem& ballot) { return ballot.winner(); },
@@ -140,7 +142,7 @@ void bind_ballot(py::module_& module) {
           "kind_mismatch", [](const NamedItem& ballot) { return ballot.answer.kind_mismatch; },
           "Why the judges were not trained for such an object; mostly ''.")
       .def_property_readonly("file", &file, "The object's file, '' where it has none.")
-      .def("explain", &explain_ballot)
+      .def("explain", &explain_ballot, "What Classifier.explain tells, as a dict.")
       .def("__repr__", &text)
       .def("_repr_html_", &page);
 }

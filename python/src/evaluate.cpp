@@ -132,7 +132,7 @@ py::list splits(const std::vector<std::uint32_t>& labels, int count, double test
 }  // namespace
 
 void bind_evaluate(py::module_& module) {
-  py::class_<Rate>(module, "Rate")
+  py::class_<Rate>(module, "Rate", "A rate over several splits, from 0 to 1.")
       .def_readonly("mean", &Rate::mean, "The mean over the splits.")
       .def_readonly("deviation", &Rate::deviation, "The sample standard deviation over the splits; 0 for a single one.")
       .def_property_readonly(
@@ -142,7 +142,7 @@ void bind_evaluate(py::module_& module) {
         return py::str("<spincat.Rate: {:.3f} ± {:.3f}, 95 % {:.3f} to {:.3f}>")
             .format(rate.mean, rate.deviation, rate.interval.low, rate.interval.high);
       });
-  py::class_<Measured>(module, "Evaluation")
+  py::class_<Measured>(module, "Evaluation", "How often names were right; evaluate makes it.")
       .def_property_readonly(
           "categories", [](const Measured& m) { return m.result.categories; }, "The n categories.")
       .def_property_readonly(

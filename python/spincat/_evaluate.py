@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _spincat
-from ._common import Items, Path, ProgressLike, paths, real, thread_count, told, whole
+from ._common import Items, Path, ProgressLike, path, paths, real, thread_count, told, whole
 from ._files import labelled
 from ._spincat import Evaluation, InputError
 
@@ -72,7 +72,7 @@ def evaluate(
             return _spincat.evaluate_files(known.files, known.labels, known.names, name, *work)
     sources = paths("data", data)
     read_as = _spincat.DatasetOptions(
-        os.fspath(models), os.fspath(category_map), os.fspath(others), ""
+        path("models", models), path("category_map", category_map), path("others", others), ""
     )
     return _spincat.evaluate_sources(sources, read_as, [] if test is None else paths("test", test), *work)
 

@@ -2,13 +2,14 @@
 
 import copy
 import inspect
+import os
 import pickle
 import subprocess
 import sys
 import unittest
 
 import numpy as np
-from support import SMALL, Folder, box, boxes, cloud
+from support import SMALL, SOURCE, Folder, box, boxes, cloud
 
 import spincat
 
@@ -73,6 +74,17 @@ class Protocol(Folder):
         order = np.argsort([str(file) for file in files])
         files, labels = [files[i] for i in order], [labels[i] for i in order]
         scores = cross_val_score(spincat.Classifier(**settings), files, labels, cv=splits)
+        self.assertAlmostEqual(scores.mean(), found.overall_rate.mean, places=12)
+
+    def test_scores_over_the_princeton_furniture(self):
+        psb = os.environ.get("SPINCAT_PSB", "")
+        if not os.path.isdir(psb):
+            self.skipTest("SPINCAT_PSB names no folder")
+        settings = {"background": 0, "copies": 0, "trained_for": "meshes", "points": 512, "spin_points": 32, "image_width": 16}
+        found = spincat.evaluate(psb, category_map=SOURCE / "data/psb-furniture.csv", splits=2, **settings)
+        files, labels = [one[0] for one in found.tested], [one[1] for one in found.tested]
+        scores = cross_val_score(spincat.Classifier(**settings), files, labels, cv=spincat.Splits(2))
+        self.assertEqual(len(files), 156)
         self.assertAlmostEqual(scores.mean(), found.overall_rate.mean, places=12)
 
     def test_names_are_those_of_leaving_each_out(self):

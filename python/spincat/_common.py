@@ -77,19 +77,23 @@ class Bars:
 
     def __call__(self, stage: str, done: int, total: int) -> None:
         if stage != self._stage:
-            self._stage = stage
-            if isinstance(self._make, type):
-                self.close()
-                self._bar = self._make(total=total, desc=stage)
-            else:
-                self._bar.total = total
-                self._bar.n = 0
+            self._begin(stage, total)
+        if self._bar is None:  # its stage is done
+            return
         self._bar.total = total
         self._bar.update(done - self._bar.n)
-
-    def close(self) -> None:
-        if self._bar is not None and isinstance(self._make, type):
+        if done == total and isinstance(self._make, type):
             self._bar.close()
+            self._bar = None
+
+    def _begin(self, stage: str, total: int) -> None:
+        self._stage = stage
+        if isinstance(self._make, type):
+            if self._bar is not None:
+                self._bar.close()
+            self._bar = self._make(total=total, desc=stage)
+        else:
+            self._bar.n = 0
 
 
 def told(progress: ProgressLike) -> Told:

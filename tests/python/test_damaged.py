@@ -229,7 +229,7 @@ class Interrupted(unittest.TestCase):
 
         spincat.Classifier(**SMALL).fit(*boxes(2), progress=Bar)
         self.assertEqual([bar.desc for bar in Bar.made][0], "describing objects")
-        self.assertTrue(all(bar.n == bar.total for bar in Bar.made))
+        self.assertTrue(all(bar.n == bar.total and bar.closed for bar in Bar.made))
         bar = Bar()
         spincat.describe(boxes(2)[0], progress=bar)
         self.assertEqual((bar.n, bar.total), (6, 6))

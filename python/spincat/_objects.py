@@ -40,7 +40,7 @@ def read(
     return _spincat.read(path("file", file), *limits)
 
 
-def write(file: Path, shape: Object) -> None:
+def write(shape: Object, file: Path) -> None:
     """Writes an object: a mesh as .ply, a cloud as .ply or .pcd, in double precision, so that read gives it back.
 
     Where a cloud was seen from is kept by .pcd alone. Raises InputError for another extension, RunError when the file
@@ -48,7 +48,7 @@ def write(file: Path, shape: Object) -> None:
 
     >>> import numpy as np, os, spincat, tempfile
     >>> name = os.path.join(tempfile.mkdtemp(), "cloud.ply")
-    >>> spincat.write(name, spincat.Object(np.eye(3)))
+    >>> spincat.write(spincat.Object(np.eye(3)), name)
     >>> np.array_equal(spincat.read(name).points, np.eye(3))
     True
     """

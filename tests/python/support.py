@@ -79,6 +79,6 @@ class Folder(unittest.TestCase):
         for i, (shape, label) in enumerate(zip(*boxes(each))):
             files.append(self.folder / "boxes" / label / f"{i:02}.ply")
             files[-1].parent.mkdir(parents=True, exist_ok=True)
-            spincat.write(files[-1], shape)
+            spincat.write(shape, files[-1])
             labels.append(label)
         return self.folder / "boxes", files, labels

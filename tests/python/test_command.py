@@ -11,7 +11,7 @@ class Command(Folder):
         files = [self.folder / "clouds" / f"{i:02}.pcd" for i in range(count)]
         files[0].parent.mkdir()
         for i, file in enumerate(files):
-            spincat.write(file, cloud(150 + 7 * i, seed=i))
+            spincat.write(cloud(150 + 7 * i, seed=i), file)
         return files
 
     def test_features(self):

@@ -55,7 +55,7 @@ class Refused(Folder):
             pass
         self.refuse("expected the name of a file", spincat.read, closed)
         self.refuse("is empty", spincat.read, closed.name)
-        self.refuse("expected an Object to write", spincat.write, self.folder / "a.ply", "a")
+        self.refuse("expected an Object to write", spincat.write, "a", self.folder / "a.ply")
         self.refuse("expected a whole number", spincat.read, closed.name, max_points=1.5)
         self.refuse("0 or more", spincat.read, closed.name, max_points=-1)
         self.refuse("is not a spincat file", spincat.Classifier.load, closed.name)

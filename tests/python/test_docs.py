@@ -59,9 +59,9 @@ class Documentation(Folder):
             for i in range(5):
                 file = self.folder / "furniture" / make.__name__ / f"{i}.ply"
                 file.parent.mkdir(parents=True, exist_ok=True)
-                spincat.write(file, make(i))
-        spincat.write("a-new-object.ply", chair(7))
-        spincat.write("scan.pcd", cloud(2000))
+                spincat.write(make(i), file)
+        spincat.write(chair(7), "a-new-object.ply")
+        spincat.write(cloud(2000), "scan.pcd")
 
     def run_doctest(self, name, text, **names):
         test = doctest.DocTestParser().get_doctest(text, names, name, name, 0)

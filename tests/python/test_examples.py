@@ -49,7 +49,7 @@ class Examples(Folder):
         self.assertRegex(run("sort_folder.py", "none.spincat", data, data, status=1), "^sort_folder: none.spincat: ")
 
     def test_spin_images(self):
-        spincat.write(self.folder / "cloud.ply", cloud())
+        spincat.write(cloud(), self.folder / "cloud.ply")
         out = run("spin_images.py", self.folder / "cloud.ply", self.folder / "images.npy")
         self.assertRegex(out, r"^50 spin images of 9 x 17\nmost alike: points \d+ and \d+, correlation (0\.\d\d|1\.00)\n$")
         self.assertEqual(np.load(self.folder / "images.npy").shape, (50, 9, 17))

@@ -26,7 +26,7 @@ class Install(Folder):
         model = self.folder / "boxes.spincat"
         objects, labels = boxes(2)
         spincat.Classifier(**SMALL).fit(objects, labels).save(model)
-        spincat.write(self.folder / "board.ply", objects[0])
+        spincat.write(objects[0], self.folder / "board.ply")
         code = "import spincat; print(spincat.__file__); print(spincat.Classifier.load('boxes.spincat').predict(['board.ply'])[0])"
         place, name = self.run_quietly(python, "-c", code, **environment).splitlines()
         self.assertEqual(name, "board")

@@ -64,7 +64,7 @@ class Arrays(Folder):
 
 class Files(Folder):
     def same(self, shape, name):
-        spincat.write(self.folder / name, shape)
+        spincat.write(shape, self.folder / name)
         again = spincat.read(self.folder / name)
         self.assertEqual(again.kind, shape.kind)
         for one, other in ((again.points, shape.points), (again.faces, shape.faces), (again.normals, shape.normals), (again.sensor, shape.sensor)):  # fmt: skip
@@ -84,15 +84,15 @@ class Files(Folder):
 
     def test_other_names_are_refused(self):
         with self.assertRaisesRegex(spincat.InputError, r"a.obj: expected a name that ends in .ply or .pcd"):
-            spincat.write(self.folder / "a.obj", box(1, 1, 1))
+            spincat.write(box(1, 1, 1), self.folder / "a.obj")
         with self.assertRaisesRegex(spincat.InputError, "PCD files hold no faces"):
-            spincat.write(self.folder / "a.pcd", box(1, 1, 1))
+            spincat.write(box(1, 1, 1), self.folder / "a.pcd")
         with self.assertRaises(spincat.InputError):
-            spincat.write(self.folder / "none" / "a.ply", box(1, 1, 1))
+            spincat.write(box(1, 1, 1), self.folder / "none" / "a.ply")
         self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_limits(self):
-        spincat.write(self.folder / "a.ply", cloud(50))
+        spincat.write(cloud(50), self.folder / "a.ply")
         with self.assertRaisesRegex(spincat.InputError, "49"):
             spincat.read(self.folder / "a.ply", max_points=49)
 

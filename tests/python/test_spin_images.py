@@ -49,7 +49,7 @@ class Command(Folder):
     def test_bytes_of_the_command(self):
         for i in range(4):
             file = self.folder / f"{i}.ply"
-            spincat.write(file, cloud(150 + i, seed=i))
+            spincat.write(cloud(150 + i, seed=i), file)
             made = spincat.prepare(file, preset="paper", support_angle=180, bin_size="1res")
             for threads in (1, 3):
                 images = spincat.spin_images(made.points, made.normals, width=20, bin_size=made.bin_size, support_angle=180, threads=threads)  # fmt: skip
@@ -57,7 +57,7 @@ class Command(Folder):
 
     def test_bytes_of_the_command_at_chosen_points(self):
         file = self.folder / "a.ply"
-        spincat.write(file, cloud())
+        spincat.write(cloud(), file)
         made = spincat.prepare(file, spin_points=17)
         images = spincat.spin_images(made.points, made.normals, made.keypoints, width=40, bin_size=made.bin_size, binning="nearest", angle_test="soft")  # fmt: skip
         self.assertEqual(images.shape, (17, 2, 40, 40))

@@ -62,9 +62,10 @@ std::string text(const NamedItem& ballot) {
 
 std::string page(const NamedItem& ballot) {
   const std::string title = file(ballot).empty() ? "Object" : file(ballot);
+  const std::string model = ballot.model.file().empty() ? "a model in memory" : ballot.model.file().string();
   return framed(run_work(py::none(), [&](Telling&) {
     const std::vector<NamedObject> shown = {{title, *shape_of(ballot.item).object, ballot.answer}};
-    return classification_page(ballot.model.file().string(), ballot.model, shown);
+    return classification_page(model, ballot.model, shown);
   }));
 }
 

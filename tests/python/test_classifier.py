@@ -201,6 +201,7 @@ class Ballots(Folder):
     def test_shows_in_a_notebook(self):
         page = self.classifier.ballots(self.objects[:1])[0]._repr_html_()
         self.assertTrue(page.startswith("<iframe") and page.endswith("</iframe>"))
+        self.assertIn("a model in memory", page)
 
     def test_evidence_adds_up_to_the_margin(self):
         shape = self.objects[0]

@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <cstring>
 #include <utility>
 
 namespace py = pybind11;
@@ -13,13 +12,6 @@ namespace {
 bool holds_numbers(const py::array& array) {
   const char kind = array.dtype().kind();
   return kind == 'f' || kind == 'i' || kind == 'u';
-}
-
-template <class T>
-double value_at(const char* place) {
-  T value;
-  std::memcpy(&value, place, sizeof value);  // strides of a view may leave it anywhere
-  return static_cast<double>(value);
 }
 
 }  // namespace
@@ -56,12 +48,6 @@ Matrix::Matrix(const py::handle& given, const std::string& name, std::size_t col
   rows_ = static_cast<std::size_t>(array_.shape(0));
   row_stride_ = array_.strides(0);
   column_stride_ = array_.strides(1);
-}
-
-double Matrix::at(std::size_t row, std::size_t column) const {
-  const char* place =
-      data_ + static_cast<py::ssize_t>(row) * row_stride_ + static_cast<py::ssize_t>(column) * column_stride_;
-  return single_ ? value_at<float>(place) : value_at<double>(place);
 }
 
 std::vector<Vec3> finite_points(const py::handle& array, const std::string& name) {

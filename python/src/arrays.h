@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,12 +21,24 @@ class Matrix {
 
   std::size_t rows() const { return rows_; }
   bool is_single() const { return single_; }
-  double at(std::size_t row, std::size_t column) const;
+  // Three numbers of a row, from `first_column` on.
   Vec3 vector(std::size_t row, std::size_t first_column = 0) const {
-    return {at(row, first_column), at(row, first_column + 1), at(row, first_column + 2)};
+    const char* const place = data_ + static_cast<pybind11::ssize_t>(row) * row_stride_ +
+                              static_cast<pybind11::ssize_t>(first_column) * column_stride_;
+    return single_ ? load<float>(place) : load<double>(place);
   }
 
  private:
+  template <class T>
+  Vec3 load(const char* place) const {
+    T values[3];
+    for (T& value : values) {
+      std::memcpy(&value, place, sizeof value);  // strides of a view may leave it anywhere
+      place += column_stride_;
+    }
+    return {static_cast<double>(values[0]), static_cast<double>(values[1]), static_cast<double>(values[2])};
+  }
+
   pybind11::array array_;
   const char* data_ = nullptr;
   std::size_t rows_ = 0;

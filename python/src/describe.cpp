@@ -16,16 +16,6 @@ namespace py = pybind11;
 namespace spincat::python {
 namespace {
 
-// What `work` returns. An InputError of it that knows no file gets the name of the item.
-template <class Work>
-auto naming_item(const Item& item, std::size_t index, Work&& work) {
-  try {
-    return work();
-  } catch (const InputError& error) {
-    throw error.file().empty() ? InputError(name_of(item, index), error.problem()) : error;
-  }
-}
-
 py::array_t<float> rows_of(const std::vector<std::vector<float>>& features, std::size_t length) {
   check_memory(static_cast<double>(features.size()) * static_cast<double>(length * sizeof(float)), "features");
   py::array_t<float> rows({static_cast<py::ssize_t>(features.size()), static_cast<py::ssize_t>(length)});

@@ -72,11 +72,7 @@ std::vector<NamedItem> classify_items(const Model& model, const py::object& obje
   std::vector<Classification> answers(items.size());
   run_on_thread(progress, [&](Telling& telling) {
     share_out(items.size(), threads, "naming objects", telling, [&](std::size_t i) {
-      try {
-        answers[i] = classify(model, *shape_of(items[i]).object);
-      } catch (const InputError& error) {
-        throw error.file().empty() ? InputError(name_of(items[i], i), error.problem()) : error;
-      }
+      answers[i] = naming_item(items[i], i, [&] { return classify(model, *shape_of(items[i]).object); });
     });
   });
   std::vector<NamedItem> named;

@@ -31,6 +31,16 @@ Shape shape_of(const Item& item);
 // The item as messages call it: its file, or "objects[3]".
 std::string name_of(const Item& item, std::size_t index);
 
+// What `work` returns. An InputError of it that knows no file gets the name of the item.
+template <class Work>
+auto naming_item(const Item& item, std::size_t index, Work&& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    throw error.file().empty() ? InputError(name_of(item, index), error.problem()) : error;
+  }
+}
+
 // A page of the reports in a frame that notebooks show.
 std::string framed(const std::string& page);
 

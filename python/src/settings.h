@@ -16,7 +16,7 @@ Settings settings_of(const std::string& preset_name, const pybind11::dict& chose
 // All settings and the preset, by name.
 pybind11::dict dict_of(const Settings& settings);
 
-// Throws InputError unless there is one thread or more.
+// The same number. Throws InputError unless it is 1 to 4,096.
 int threads_of(int threads);
 
 }  // namespace spincat::python

@@ -53,12 +53,15 @@ class Frame {
 
 // The normal with length 1; as it is where it has that already. None where it has no direction.
 std::optional<Eigen::Vector3f> unit_normal(const Vec3& normal) {
-  constexpr double kTolerance = 1e-5;
+  constexpr double kTolerance = 2e-5;  // of its square
+  if (std::abs(normal.squaredNorm() - 1.0) <= kTolerance) {
+    return normal.cast<float>();
+  }
   const double length = normal.stableNorm();
   if (!std::isfinite(length) || !(length > 0.0)) {
     return std::nullopt;
   }
-  return std::abs(length - 1.0) <= kTolerance ? normal.cast<float>() : normal.stableNormalized().cast<float>();
+  return normal.stableNormalized().cast<float>();
 }
 
 // The rows of two arrays that are oriented points, and which rows these are.
@@ -68,25 +71,29 @@ struct Kept {
   std::vector<std::int64_t> dropped;  // not finite, or without a direction
 };
 
+OrientedPoints first_points(const OrientedPoints& points, std::size_t count) {
+  OrientedPoints first(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    first.set(k, points.position(k), points.normal(k));
+  }
+  return first;
+}
+
 Kept oriented(const Matrix& positions, const Matrix& normals, std::size_t normal_column, const Frame& frame) {
-  std::vector<std::pair<Eigen::Vector3f, Eigen::Vector3f>> found;
-  found.reserve(positions.rows());
+  OrientedPoints found(positions.rows());
   Kept kept;
   kept.rows.reserve(positions.rows());
   for (std::size_t i = 0; i < positions.rows(); ++i) {
     const Eigen::Vector3f position = frame(positions.vector(i));
     const auto normal = unit_normal(normals.vector(i, normal_column));
     if (position.allFinite() && normal) {
-      found.emplace_back(position, *normal);
+      found.set(kept.rows.size(), position, *normal);
       kept.rows.push_back(static_cast<std::int64_t>(i));
     } else {
       kept.dropped.push_back(static_cast<std::int64_t>(i));
     }
   }
-  kept.points = OrientedPoints(found.size());
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    kept.points.set(k, found[k].first, found[k].second);
-  }
+  kept.points = kept.dropped.empty() ? std::move(found) : first_points(found, kept.rows.size());
   return kept;
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -67,7 +68,7 @@ std::optional<Eigen::Vector3f> unit_normal(const Vec3& normal) {
 // The rows of two arrays that are oriented points, and which rows these are.
 struct Kept {
   OrientedPoints points;
-  std::vector<std::int64_t> rows;     // of points
+  std::vector<std::int64_t> rows;     // of points; empty where none was dropped
   std::vector<std::int64_t> dropped;  // not finite, or without a direction
 };
 
@@ -82,18 +83,24 @@ OrientedPoints first_points(const OrientedPoints& points, std::size_t count) {
 Kept oriented(const Matrix& positions, const Matrix& normals, std::size_t normal_column, const Frame& frame) {
   OrientedPoints found(positions.rows());
   Kept kept;
-  kept.rows.reserve(positions.rows());
+  std::size_t count = 0;
   for (std::size_t i = 0; i < positions.rows(); ++i) {
     const Eigen::Vector3f position = frame(positions.vector(i));
     const auto normal = unit_normal(normals.vector(i, normal_column));
     if (position.allFinite() && normal) {
-      found.set(kept.rows.size(), position, *normal);
-      kept.rows.push_back(static_cast<std::int64_t>(i));
+      found.set(count++, position, *normal);
+      if (!kept.dropped.empty()) {
+        kept.rows.push_back(static_cast<std::int64_t>(i));
+      }
     } else {
+      if (kept.dropped.empty()) {
+        kept.rows.resize(count);
+        std::iota(kept.rows.begin(), kept.rows.end(), std::int64_t{0});
+      }
       kept.dropped.push_back(static_cast<std::int64_t>(i));
     }
   }
-  kept.points = kept.dropped.empty() ? std::move(found) : first_points(found, kept.rows.size());
+  kept.points = kept.dropped.empty() ? std::move(found) : first_points(found, count);
   return kept;
 }
 
@@ -115,11 +122,19 @@ std::vector<std::int64_t> chosen_rows(const py::handle& keypoints, std::size_t p
 }
 
 Kept chosen(const std::vector<std::int64_t>& wanted, const Kept& surface, std::size_t points) {
+  Kept kept;
+  if (surface.dropped.empty()) {
+    kept.points = OrientedPoints(wanted.size());
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      const auto at = static_cast<std::size_t>(wanted[k]);
+      kept.points.set(k, surface.points.position(at), surface.points.normal(at));
+    }
+    return kept;
+  }
   std::vector<std::int64_t> place(points, -1);  // of a row among the points that were kept
   for (std::size_t k = 0; k < surface.rows.size(); ++k) {
     place[static_cast<std::size_t>(surface.rows[k])] = static_cast<std::int64_t>(k);
   }
-  Kept kept;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const bool is_there = place[static_cast<std::size_t>(wanted[i])] >= 0;
     (is_there ? kept.rows : kept.dropped).push_back(static_cast<std::int64_t>(i));
@@ -181,6 +196,9 @@ void make_images(const Kept& surface, const Kept& spins, const SpinImageParams& 
 
 // Moves the images that were made, which stand at the beginning, to their rows, and fills the others with NaN.
 void spread_rows(const Kept& spins, std::size_t size, float* images) {
+  if (spins.dropped.empty()) {
+    return;
+  }
   std::size_t made = spins.rows.size();
   for (std::size_t row = spins.rows.size() + spins.dropped.size(); row-- > 0;) {
     float* const to = images + row * size;

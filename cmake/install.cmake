@@ -6,9 +6,9 @@ include(CMakePackageConfigHelpers)
 set(public_headers
   spincat.h error.h execution.h range.h
   geometry/object.h geometry/oriented_points.h
-  io/read_limits.h io/read_object.h
-  dataset/dataset.h
-  prepare/prepare.h
+  io/read_limits.h io/read_object.h io/write_object.h
+  dataset/dataset.h dataset/splits.h
+  prepare/prepare.h prepare/point_normals.h
   spin/params.h spin/spin_images.h spin/spin_image_maker.h
   encode/feature_vector.h
   judge/settings.h judge/ballot.h

@@ -25,6 +25,11 @@ packages_mpi=(
   pkgconf                     # finds every MPI that is installed
 )
 
+packages_python=(
+  pybind11-dev python3-dev python3-numpy                # the package `import spincat`
+  python3-pip python3-venv python3-setuptools python3-wheel  # pip install .
+)
+
 packages_camera=(
   libfreenect-dev  # optional: a Kinect as the source of spincat camera
 )
@@ -42,6 +47,9 @@ packages_test=(
   openssh-server openssh-client iproute2                 # several hosts, as network namespaces
   strace                                                 # which files reading a model opens
   slurm-wlm munge                                        # and under srun
+  "${packages_python[@]}"
+  python3-sklearn  # the estimator under cross-validation, in grids and pipelines
+  mypy             # the package's annotations
 )
 
 # For the readers' fuzzing, which is skipped without it.

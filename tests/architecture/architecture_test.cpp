@@ -97,6 +97,19 @@ TEST(Architecture, EveryModuleIncludesOnlyWhatItMay) {
   EXPECT_GT(seen, 50U);  // the walk did find the sources
 }
 
+TEST(Architecture, ThePythonPackageIncludesOnlyTheWholeLibrary) {
+  std::size_t seen = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(SPINCAT_SOURCE_DIR) / "python/src")) {
+    for (const std::string& include : includes_of(entry.path())) {
+      if (include.rfind("spincat/", 0) == 0) {
+        EXPECT_EQ(include, "spincat/spincat.h") << entry.path();
+        ++seen;
+      }
+    }
+  }
+  EXPECT_GT(seen, 0U);
+}
+
 TEST(Architecture, OnlyParallelKnowsMpiAndOnlyTheCommandPrints) {
   const fs::path root = fs::path(SPINCAT_SOURCE_DIR) / "src/spincat";
   for (const auto& entry : fs::recursive_directory_iterator(root)) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#pragma GCC visibility push(default)
 namespace spincat {
 
 // Indices into the data set's objects, ascending in each.
@@ -38,3 +39,4 @@ std::vector<Split> stratified_splits(std::span<const std::uint32_t> labels, int 
 std::vector<Split> stratified_folds(std::span<const std::uint32_t> labels, int folds, std::uint64_t seed);
 
 }  // namespace spincat
+#pragma GCC visibility pop

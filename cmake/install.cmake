@@ -29,7 +29,8 @@ if(CMAKE_SIZEOF_VOID_P EQUAL 8)
   list(APPEND public_definitions EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 
-# Installs one of the two libraries with all that goes with it. Further arguments are install()'s, for every file.
+# Installs one of the two libraries with all that goes with it. Further arguments are install()'s, for every file, instead
+# of the components library and development.
 function(spincat_install_library target)
   set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/spincat)
   set(made ${PROJECT_BINARY_DIR}/package/${target})
@@ -37,11 +38,18 @@ function(spincat_install_library target)
   target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/src FILES ${public_headers})
   list(TRANSFORM public_definitions REPLACE "(.+)" "$<INSTALL_INTERFACE:\\1>" OUTPUT_VARIABLE definitions)
   target_compile_definitions(${target} INTERFACE ${definitions})
+  # What programs run with, and what they are built with, are packages of their own (cmake/packages.cmake).
+  set(runs_with COMPONENT library NAMELINK_COMPONENT development)
+  set(built_with COMPONENT development)
+  if(ARGN)
+    set(runs_with ${ARGN})
+    set(built_with ${ARGN})
+  endif()
   install(TARGETS ${target} EXPORT ${target}_targets
-          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} ${ARGN}
-          LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ${ARGN}
-          FILE_SET HEADERS ${ARGN})
-  install(EXPORT ${target}_targets NAMESPACE spincat:: DESTINATION ${package_dir} ${ARGN})
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} ${built_with}
+          LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ${runs_with}
+          FILE_SET HEADERS ${built_with})
+  install(EXPORT ${target}_targets NAMESPACE spincat:: DESTINATION ${package_dir} ${built_with})
 
   get_target_property(type ${target} TYPE)
   string(COMPARE EQUAL ${type} STATIC_LIBRARY is_static)
@@ -49,7 +57,7 @@ function(spincat_install_library target)
   write_basic_package_version_file(${made}/spincatConfigVersion.cmake COMPATIBILITY SameMinorVersion)
   install(FILES ${made}/spincatConfig.cmake ${made}/spincatConfigVersion.cmake cmake/FindLibSVM.cmake
                 cmake/FindTinyGLTFPacked.cmake cmake/FindLodePNG.cmake
-          DESTINATION ${package_dir} ${ARGN})
+          DESTINATION ${package_dir} ${built_with})
 
   # Found from wherever the prefix is moved to.
   file(RELATIVE_PATH to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
@@ -59,11 +67,11 @@ function(spincat_install_library target)
     set(draco_library -ldraco)
   endif()
   configure_file(cmake/spincat.pc.in ${made}/spincat.pc @ONLY)
-  install(FILES ${made}/spincat.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig ${ARGN})
+  install(FILES ${made}/spincat.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig ${built_with})
 endfunction()
 
 if(TARGET spincat_command)
-  install(TARGETS spincat_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS spincat_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command)
 endif()
 if(BUILD_SHARED_LIBS)
   spincat_install_library(spincat_shared)

@@ -50,6 +50,7 @@ packages_test=(
   "${packages_python[@]}"
   python3-sklearn  # the estimator under cross-validation, in grids and pipelines
   mypy             # the package's annotations
+  zsh fish         # completions
 )
 
 # For the readers' fuzzing, which is skipped without it.
@@ -61,6 +62,11 @@ packages_fuzz=(
 packages_browser=(
   chromium  # 120 MB to download, 410 MB installed
   python3
+)
+
+packages_packages=(
+  libmpich-dev            # a plug-in for each MPI
+  help2man dpkg-dev file  # manual pages; what a package depends on (scripts/packages)
 )
 
 packages_docs=(

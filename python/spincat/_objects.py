@@ -102,7 +102,7 @@ def prepare(shape: Item, *, preset: str = "default", **settings: Any) -> Prepare
     >>> import numpy as np, spincat
     >>> cloud = spincat.Object(np.random.default_rng(1).random((500, 3)))
     >>> spincat.prepare(cloud, spin_points=10)
-    <spincat.Prepared: 500 points, 10 keypoints>
+    <spincat.Prepared: ... points, 10 keypoints>
     """
     made = _spincat.prepare(shape, preset, settings)
     surface = made["surface"]

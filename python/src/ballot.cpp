@@ -142,7 +142,9 @@ void bind_ballot(py::module_& module) {
       .def_property_readonly(
           "kind_mismatch", [](const NamedItem& ballot) { return ballot.answer.kind_mismatch; },
           "Why the judges were not trained for such an object; mostly ''.")
-      .def_property_readonly("file", &file, "The object's file, '' where it has none.")
+      .def_property_readonly(
+          "file", [](const NamedItem& ballot) { return decoded(file(ballot)); },
+          "The object's file, '' where it has none.")
       .def("explain", &explain_ballot, "What Classifier.explain tells, as a dict.")
       .def("__repr__", &text)
       .def("_repr_html_", &page);

@@ -3,7 +3,12 @@
 
 #include <pybind11/pybind11.h>
 
+#include <string>
+
 namespace spincat::python {
+
+// Text of the library may hold names of files and folders, whose bytes need not be UTF-8: Python's way to keep them.
+pybind11::object decoded(const std::string& bytes);
 
 void bind_errors(pybind11::module_& module);
 void bind_settings(pybind11::module_& module);

@@ -143,9 +143,23 @@ std::unique_ptr<FrameReader> make_reader(const Model& model, const py::dict& wan
   return std::make_unique<FrameReader>(model, settings, threads);
 }
 
-// A recording, frame by frame.
-py::object next_frame(FrameSource& source) {
-  const std::optional<Frame> frame = run_work(py::none(), [&](Telling&) { return source.next(); });
+// A recording, frame by frame; threads of Python that share it get one frame each.
+class Recording {
+ public:
+  explicit Recording(const fs::path& place) : source_(open_recording(place, {})) {}
+
+  std::optional<Frame> next() {
+    const std::lock_guard lock(mutex_);
+    return source_->next();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::unique_ptr<FrameSource> source_;
+};
+
+py::object next_frame(Recording& recording) {
+  const std::optional<Frame> frame = run_work(py::none(), [&](Telling&) { return recording.next(); });
   if (!frame) {
     throw py::stop_iteration();
   }
@@ -159,8 +173,8 @@ py::object next_frame(FrameSource& source) {
 
 void bind_camera(py::module_& module) {
   py::class_<FrameReader>(module, "Recogniser").def(py::init(&make_reader)).def("frame", &FrameReader::frame);
-  py::class_<FrameSource>(module, "Recording")
-      .def(py::init([](const fs::path& place) { return open_recording(place, {}); }))
+  py::class_<Recording>(module, "Recording")
+      .def(py::init<const fs::path&>())
       .def("__iter__", [](const py::object& self) { return self; })
       .def("__next__", &next_frame);
 }

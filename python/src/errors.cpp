@@ -11,12 +11,6 @@ namespace py = pybind11;
 namespace spincat::python {
 namespace {
 
-// Text of the library may hold file names, whose bytes need not be UTF-8.
-py::object text(const std::string& bytes) {
-  return py::reinterpret_steal<py::object>(
-      PyUnicode_DecodeFSDefaultAndSize(bytes.data(), static_cast<Py_ssize_t>(bytes.size())));
-}
-
 // They live as long as the process, as the module does.
 PyObject* input_error = nullptr;
 PyObject* run_error = nullptr;
@@ -33,9 +27,9 @@ PyObject* make_type(py::module_& module, const char* name, PyObject* base, const
 }
 
 void set_error(PyObject* type, const Error& error) {
-  const py::object exception = py::handle(type)(text(error.what()));
-  exception.attr("file") = text(error.file());
-  exception.attr("problem") = text(error.problem());
+  const py::object exception = py::handle(type)(decoded(error.what()));
+  exception.attr("file") = decoded(error.file());
+  exception.attr("problem") = decoded(error.problem());
   PyErr_SetObject(type, exception.ptr());
 }
 
@@ -52,6 +46,11 @@ void translate(std::exception_ptr thrown) {
 }
 
 }  // namespace
+
+py::object decoded(const std::string& bytes) {
+  return py::reinterpret_steal<py::object>(
+      PyUnicode_DecodeFSDefaultAndSize(bytes.data(), static_cast<Py_ssize_t>(bytes.size())));
+}
 
 void bind_errors(py::module_& module) {
   input_error =

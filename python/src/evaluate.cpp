@@ -91,14 +91,14 @@ py::array_t<std::uint32_t> confusion(const Measured& measured) {
 }
 
 py::list tested(const Measured& measured) {
-  const auto name = [&](std::uint32_t category) { return measured.result.categories[category]; };
+  const auto name = [&](std::uint32_t category) { return decoded(measured.result.categories[category]); };
   py::list list;
   for (const TestedObject& object : measured.result.tested) {
     py::list named;
     for (const std::uint32_t category : object.named) {
       named.append(name(category));
     }
-    list.append(py::make_tuple(object.file.string(), name(object.category), named));
+    list.append(py::make_tuple(decoded(object.file.string()), name(object.category), named));
   }
   return list;
 }
@@ -165,7 +165,7 @@ void bind_evaluate(py::module_& module) {
           [](const Measured& m) {
             py::list list;
             for (const SkippedObject& object : m.result.skipped) {
-              list.append(py::make_tuple(object.file.string(), object.reason));
+              list.append(py::make_tuple(decoded(object.file.string()), decoded(object.reason)));
             }
             return list;
           },

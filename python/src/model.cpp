@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 py::list list_of(const std::vector<SkippedObject>& skipped) {
   py::list result;
   for (const SkippedObject& object : skipped) {
-    result.append(py::make_tuple(object.file.string(), object.reason));
+    result.append(py::make_tuple(decoded(object.file.string()), decoded(object.reason)));
   }
   return result;
 }

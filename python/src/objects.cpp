@@ -257,11 +257,11 @@ void bind_objects(py::module_& module) {
       .def_property_readonly("sensor", &sensor, "Where a cloud was seen from, where that is known; else None.")
       .def_property_readonly("kind", &kind, "'mesh' or 'cloud'.")
       .def_property_readonly(
-          "file", [](const Shape& shape) { return shape.file.string(); },
+          "file", [](const Shape& shape) { return decoded(shape.file.string()); },
           "The file that it was read from; '' where it was made of arrays.")
       .def("info", &info, "Size, area, resolution and defects as a dict: what `spincat info --json` says of a file.")
       .def("__len__", [](const Shape& shape) { return points_of(*shape.object).size(); })
-      .def("__repr__", &text)
+      .def("__repr__", [](const Shape& shape) { return decoded(text(shape)); })
       .def("_repr_html_", &page)
       .def("__reduce__", &arrays_of);
   module.def("read", &read_limited);

@@ -166,25 +166,5 @@ TEST(OrientOutwards, OfNothingIsDefined) {
   orient_outwards({}, {});
 }
 
-TEST(EstimatedNormals, LookNoFurtherThanTheirReach) {
-  // A floor of 2 x 2 whose points are 0.1 apart, and a wall on its edge: near the edge, far neighbours are of the wall.
-  Points points;
-  for (int i = 0; i < 21; ++i) {
-    for (int k = 0; k < 21; ++k) {
-      points.emplace_back(0.1 * i, 0.1 * k, 0.0);
-      points.emplace_back(-0.35, 0.1 * k, 0.1 * i);
-    }
-  }
-  const auto at = static_cast<std::size_t>(std::ranges::find(points, Vec3(0, 1, 0)) - points.begin());
-  ASSERT_LT(at, points.size());
-  expect_parallel(estimated_normals(points, 60, 0.3)[at], Vec3(0, 0, 1), 1e-9);
-  EXPECT_GT(estimated_normals(points, 60)[at].cross(Vec3(0, 0, 1)).norm(), 0.05);
-}
-
-TEST(EstimatedNormals, TakeTheNearestTwelveHoweverFarTheyAre) {
-  const Points points = test::sphere_points(200);
-  EXPECT_EQ(estimated_normals(points, 24, 1e-6), estimated_normals(points, 12));
-}
-
 }  // namespace
 }  // namespace spincat

@@ -17,27 +17,29 @@
 namespace spincat {
 namespace {
 
-constexpr std::size_t kMoreThanDrawn = 4;   // times as many points have their normals estimated
-constexpr std::size_t kMoreOfRough = 2;     // of a rough surface: more would lie on the same few faces
-constexpr std::size_t kFewestVisible = 64;  // fewer say too little: all points are taken
-constexpr std::size_t kDiscNeighbours = 8;  // a point's disc reaches so many others
-constexpr double kBetween = 0.4;            // of a disc's radius: where points between are put
-constexpr double kNormalReach = 0.2;        // neighbours further away count among the nearest few alone
-
-// A number of a cloud's points, evenly spread, that normals are not estimated for a million points of which two
-// thousand are drawn: from neighbours that lie further apart, noise counts for less. Clouds with normals stay.
-PointCloud thinned(PointCloud cloud, std::size_t count, Random& random) {
-  if (cloud.points.size() <= count || !cloud.normals.empty()) {
-    return cloud;
-  }
-  const std::vector<Vec3> no_normals(cloud.points.size(), Vec3::Zero());
-  cloud.points = even_out({cloud.points, no_normals}, count, random).positions;
-  return cloud;
-}
+constexpr std::size_t kMoreThanDrawn = 4;    // times as many points have their normals estimated
+constexpr std::size_t kMoreOfRough = 2;      // of a rough surface: more would lie on the same few faces
+constexpr std::size_t kFewestVisible = 64;   // fewer say too little: all points are taken
+constexpr std::size_t kDiscNeighbours = 8;   // a point's disc reaches so many others
+constexpr double kBetween = 0.4;             // of a disc's radius: where points between are put
+constexpr int kFewestNeighbours = 12;        // of a thin cloud, for a normal
+constexpr std::size_t kNeighbourhoods = 80;  // that a cloud has at least, if its neighbours are not so few
 
 bool has_all_normals(const PointCloud& cloud) {
   const auto known = [](const Vec3& n) { return n.allFinite() && !n.isZero(0.0); };
   return !cloud.normals.empty() && std::ranges::all_of(cloud.normals, known);
+}
+
+// A number of a cloud's points, evenly spread, that normals are not estimated for a million points of which two
+// thousand are drawn: from neighbours that lie further apart, noise counts for less. Clouds with all normals stay.
+PointCloud thinned(PointCloud cloud, std::size_t count, Random& random) {
+  if (cloud.points.size() <= count || has_all_normals(cloud)) {
+    return cloud;
+  }
+  cloud.normals.clear();
+  const std::vector<Vec3> no_normals(cloud.points.size(), Vec3::Zero());
+  cloud.points = even_out({cloud.points, no_normals}, count, random).positions;
+  return cloud;
 }
 
 std::vector<Vec3> unit_normals(std::vector<Vec3> normals) {
@@ -69,16 +71,22 @@ void fill_up(std::size_t count, Random& random, Discs& discs) {
 // What can be seen of a cloud, from the side from which it is seen; nothing where that is too little.
 SurfacePoints external_points(const SurfacePoints& points, std::size_t count, Random& random) {
   Discs visible = visible_points({points, neighbour_distances(points.positions, kDiscNeighbours)}, random);
-  if (visible.radii.empty()) {
+  if (visible.radii.size() < std::min(kFewestVisible, points.positions.size())) {
     return {};
   }
   fill_up(count, random, visible);
-  return visible.radii.size() < kFewestVisible ? SurfacePoints() : visible.points;
+  return visible.points;
+}
+
+// The neighbours of a thin cloud are few, or they would span half of the object.
+int neighbours_of(std::size_t points, const PrepareSettings& settings) {
+  const int few = std::max(kFewestNeighbours, static_cast<int>(points / kNeighbourhoods));
+  return std::min(settings.neighbours, few);
 }
 
 // Of points whose normals are not given.
 SurfacePoints with_estimated_normals(const PointCloud& cloud, const PrepareSettings& settings, Random& random) {
-  SurfacePoints points{cloud.points, estimated_normals(cloud.points, settings.neighbours, kNormalReach)};
+  SurfacePoints points{cloud.points, estimated_normals(cloud.points, neighbours_of(cloud.points.size(), settings))};
   if (cloud.sensor) {
     orient_towards(points.positions, *cloud.sensor, points.normals);
     return points;

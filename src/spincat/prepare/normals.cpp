@@ -14,8 +14,6 @@
 namespace spincat {
 namespace {
 
-constexpr std::size_t kAlwaysCount = 12;  // of a point's neighbours, however far they are
-
 // `v` with length 1, or (0, 0, 1) where it has no direction.
 Vec3 unit_or_up(const Vec3& v) {
   const double length = v.norm();
@@ -66,7 +64,7 @@ std::vector<Vec3> vertex_normals(const Mesh& mesh) {
   return normals;
 }
 
-std::vector<Vec3> estimated_normals(std::span<const Vec3> points, int neighbours, double reach) {
+std::vector<Vec3> estimated_normals(std::span<const Vec3> points, int neighbours) {
   const PointsAdaptor adaptor{points};
   const PointTree tree(3, adaptor, {10});
   const std::size_t wanted = std::min<std::size_t>(neighbours, points.size());
@@ -75,10 +73,7 @@ std::vector<Vec3> estimated_normals(std::span<const Vec3> points, int neighbours
   std::vector<Vec3> normals;
   normals.reserve(points.size());
   for (const Vec3& p : points) {
-    std::size_t n = tree.knnSearch(p.data(), wanted, found.data(), squared_distances.data());
-    while (n > kAlwaysCount && squared_distances[n - 1] > reach * reach) {
-      --n;
-    }
+    const std::size_t n = tree.knnSearch(p.data(), wanted, found.data(), squared_distances.data());
     normals.push_back(direction_of_least_spread(points, {found.data(), n}));
   }
   return normals;

@@ -1,7 +1,6 @@
 // Normals: of faces, of vertices, and of points that have only neighbours.
 #pragma once
 
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -19,11 +18,10 @@ std::vector<Vec3> face_area_normals(const Mesh& mesh);
 std::vector<Vec3> vertex_normals(const Mesh& mesh);
 
 // The unit normal of each point: the direction of least spread among its nearest `neighbours` points, itself included
-// (principal component analysis). Those further away than `reach` count among the nearest twelve alone. The sign is
-// arbitrary but repeatable. Where the direction is not defined (fewer than three points, all collinear or equal), some
-// unit vector perpendicular to the direction of most spread. Deterministic. Precondition: neighbours >= 1.
-std::vector<Vec3> estimated_normals(std::span<const Vec3> points, int neighbours,
-                                    double reach = std::numeric_limits<double>::infinity());
+// (principal component analysis). The sign is arbitrary but repeatable. Where the direction is not defined (fewer than
+// three points, all collinear or equal), some unit vector perpendicular to the direction of most spread.
+// Deterministic. Precondition: neighbours >= 1.
+std::vector<Vec3> estimated_normals(std::span<const Vec3> points, int neighbours);
 
 // Turns every normal to the side of `sensor`: (sensor - p) . n >= 0.
 void orient_towards(std::span<const Vec3> points, const Vec3& sensor, std::span<Vec3> normals);

@@ -57,12 +57,9 @@ bool is_rough(const Mesh& mesh) {
 SurfacePoints mesh_points(const Mesh& mesh, const PrepareSettings& settings, Random& random) {
   const auto count = static_cast<std::size_t>(settings.points);
   if (settings.surface == SurfaceKind::external) {
-    SurfacePoints seen = external_surface(mesh, random);
-    if (is_rough(mesh)) {
-      seen = with_normals_of_neighbours(seen, settings, random);
-    }
+    const SurfacePoints seen = external_surface(mesh, random);
     if (seen.positions.size() >= kFewestExternalPoints) {
-      return even_out(seen, count, random);
+      return even_out(is_rough(mesh) ? with_normals_of_neighbours(seen, settings, random) : seen, count, random);
     }
   }
   SurfacePoints points = settings.surface == SurfaceKind::vertices ? SurfacePoints{mesh.vertices, vertex_normals(mesh)}

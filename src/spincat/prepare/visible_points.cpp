@@ -80,10 +80,10 @@ Discs visible_points(const Discs& discs, Random& random) {
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto [front, back] = views[i];
     const double enough = kFewestViews * (front + back);
-    if (front > enough) {
+    if (front > 0 && front >= enough) {
       add(i, points.normals[i]);
     }
-    if (back > enough) {
+    if (back > 0 && back >= enough) {
       add(i, -points.normals[i]);
     }
   }

@@ -257,6 +257,7 @@ FeatureTable describe_dataset(const Dataset& dataset, const Settings& settings, 
     table.background_rows = static_cast<std::uint32_t>(background.rows.rows());
     table.other_rows = background.others;
     table.skipped.insert(table.skipped.end(), background.skipped.begin(), background.skipped.end());
+    std::ranges::stable_sort(table.skipped, {}, &SkippedObject::file);
     append_rows(background.rows, table.features);
   }
   return table;

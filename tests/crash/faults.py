@@ -302,8 +302,8 @@ def on_small_disk(disk, data):
     sweep = f"sweep shapes --vary c=1,10 --splits 2 --copies 0 --background 4 {SMALL} -o {disk}/w.json"
     small.check_results("sweep", sweep, ["w.json"], empty=["w.json.journal"])
     evaluate = f"evaluate shapes --splits 2 --copies 1 --background 4 {SMALL} --journal {disk}/e.journal"
-    for room in (0, 64, 128, 256, 512) if FULL else (0, 256):
-        small.check_journal(f"a journal with {room} kB", evaluate, room, goes_on=room >= 256)
+    for room in (0, 64, 128, 256, 512, 1024) if FULL else (0, 512):
+        small.check_journal(f"a journal with {room} kB", evaluate, room, goes_on=room >= 512)
     small.check_journal("a sweep's journal", sweep, 0)
     for option in ("--record", "--masks"):
         for free in (0, 24):

@@ -187,7 +187,7 @@ Settings settings_of_many_rows() {
   Settings settings = small_settings();
   settings.prepare.points = 100;
   settings.prepare.spin_points = 16;
-  settings.copies = 100;
+  settings.copies = 78;
   return settings;
 }
 
@@ -469,15 +469,15 @@ TEST(Describe, DrawsAreAveraged) {
 
 TEST(Describe, CloudCopiesAreClouds) {
   Settings settings = small_settings();
-  EXPECT_EQ(settings.training_rows(), 4);
+  EXPECT_EQ(settings.training_rows(), 5);
   settings.trained_for = TrainedFor::meshes;
   EXPECT_EQ(settings.training_rows(), 2);
   settings.copies = 2;
   settings.trained_for = TrainedFor::any;
-  EXPECT_EQ(settings.training_rows(), 5);
+  EXPECT_EQ(settings.training_rows(), 6);
   // As many points as asked for, and not those that can be seen of a mesh: all of them may be drawn from a hidden face.
   const Object object = test::box();
-  for (int copy = 1; copy < 5; ++copy) {
+  for (int copy = 1; copy < 6; ++copy) {
     const PreparedObject prepared = test::prepare_copy(object, settings, copy).object;
     double off_surface = 0.0;
     for (std::size_t i = 0; i < prepared.surface.size(); ++i) {

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kMoreThanDrawn = 4;    // times as many points have their normals estimated
 constexpr std::size_t kMoreOfRough = 2;      // of a rough surface: more would lie on the same few faces
-constexpr std::size_t kFewestVisible = 64;   // fewer say too little: all points are taken
+constexpr std::size_t kFewestVisible = 64;   // fewer say too little: all points are taken, and none put between them
 constexpr std::size_t kDiscNeighbours = 8;   // a point's disc reaches so many others
 constexpr double kBetween = 0.4;             // of a disc's radius: where points between are put
 constexpr int kFewestNeighbours = 12;        // of a thin cloud, for a normal
@@ -71,7 +71,7 @@ void fill_up(std::size_t count, Random& random, Discs& discs) {
 // What can be seen of a cloud, from the side from which it is seen; nothing where that is too little.
 SurfacePoints external_points(const SurfacePoints& points, std::size_t count, Random& random) {
   Discs visible = visible_points({points, neighbour_distances(points.positions, kDiscNeighbours)}, random);
-  if (visible.radii.size() < std::min(kFewestVisible, points.positions.size())) {
+  if (visible.radii.size() < kFewestVisible) {
     return {};
   }
   fill_up(count, random, visible);

@@ -12,8 +12,8 @@ namespace spincat {
 // that the cloud has stay as they are; others are estimated from neighbours and turned to the sensor, or, where there
 // is none, to the side from which the points can be seen (SurfaceKind::external) or away from the centroid
 // (NormalOrientation::outward). SurfaceKind::external, of a cloud with neither normals nor a sensor, leaves out points
-// that cannot be seen from outside, and puts points between those of a thin cloud. Deterministic for one state of
-// `random`.
+// that cannot be seen from outside, and puts points between those of a thin cloud, where 64 or more can be seen.
+// Deterministic for one state of `random`.
 SurfacePoints cloud_points(PointCloud cloud, const PrepareSettings& settings, Random& random);
 
 // Normals of so many points, evenly spread, estimated anew from their neighbours, each on the side that the given one

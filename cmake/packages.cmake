@@ -10,7 +10,8 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package says its own
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ
                                                 WORLD_EXECUTE)
 set(CPACK_PACKAGE_VENDOR "the spincat authors")
-set(CPACK_PACKAGE_CONTACT "the spincat authors <spincat@localhost>")
+set(SPINCAT_MAINTAINER "the spincat authors <spincat@localhost>" CACHE STRING "Who answers for the Debian packages")
+set(CPACK_PACKAGE_CONTACT ${SPINCAT_MAINTAINER})
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
@@ -26,7 +27,7 @@ function(spincat_package component package section summary text)
   set(prefix CPACK_DEBIAN_${upper})
   set(${prefix}_PACKAGE_NAME ${package} PARENT_SCOPE)
   set(${prefix}_PACKAGE_SECTION ${section} PARENT_SCOPE)
-  set(${prefix}_DESCRIPTION "${summary}\nspincat learns object categories from 3D models by spin images and names new meshes and point clouds.\n.\n${text}" PARENT_SCOPE)
+  set(${prefix}_DESCRIPTION "${summary}\nspincat learns object categories from 3D models by spin images and names\nnew meshes and point clouds.\n.\n${text}" PARENT_SCOPE)
   while(ARGN)
     list(POP_FRONT ARGN field value)
     set(${prefix}_PACKAGE_${field} "${value}" PARENT_SCOPE)
@@ -56,15 +57,17 @@ spincat_package(documentation spincat-doc doc "object categories from 3D models,
 if(spincat_has_python)
   math(EXPR next "${Python3_VERSION_MINOR} + 1")
   spincat_package(python python3-spincat python "object categories from 3D models, Python package"
-    "This package has the module spincat, whose classifier follows the protocol of scikit-learn."
+    "This package has the module spincat, whose classifier follows the protocol\nof scikit-learn."
     DEPENDS "python3 (>= 3.${Python3_VERSION_MINOR}~), python3 (<< 3.${next}~), python3-numpy" SUGGESTS python3-sklearn)
 endif()
 foreach(mpi ${SPINCAT_MPI_PLUGINS})
   spincat_package(${mpi} spincat-${mpi} science "object categories from 3D models, many machines"
-    "This package lets the launcher of ${mpi} share the command's work out to many processes."
+    "This package lets the launcher of ${mpi} share the command's work out to\nmany processes."
     DEPENDS "spincat (= ${package_version})")
 endforeach()
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+file(WRITE ${PROJECT_BINARY_DIR}/package/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/package/triggers)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/spincat-doc COMPONENT documentation)

@@ -186,6 +186,8 @@ INSTANTIATE_TEST_SUITE_P(Presets, Preset, testing::Values("default", "paper"));
 Settings settings_of_many_rows() {
   Settings settings = small_settings();
   settings.prepare.points = 100;
+  settings.prepare.surface = SurfaceKind::samples;
+  settings.radial = settings.plain_samples = false;
   settings.prepare.spin_points = 16;
   settings.copies = 78;
   return settings;

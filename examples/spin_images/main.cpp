@@ -46,6 +46,7 @@ int main() {
     // Normals, a common scale, and 100 of the points, chosen at random by the seed.
     spincat::PrepareSettings settings;
     settings.spin_points = 100;
+    settings.surface = spincat::SurfaceKind::samples;  // all points count, whether they can be seen from outside or not
     const spincat::PreparedObject object = spincat::prepare(cylinder(), settings, 1);
 
     spincat::SpinImageParams params;

@@ -8,8 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "spincat/prepare/external_surface.h"
-#include "support/shapes.h"
+#include "prepare/seen_surface.h"
 
 namespace spincat {
 namespace {
@@ -22,15 +21,8 @@ Key key_of(const SurfacePoints& points, std::size_t i) {
   return {p.x(), p.y(), p.z(), n.x(), n.y(), n.z()};
 }
 
-SurfacePoints seen_of(const Mesh& mesh, std::uint64_t seed = 1) {
-  Random random(seed);
-  return external_surface(mesh, random);
-}
-
-// A box that fits into the unit sphere, as test::box.
-Mesh unit_box() {
-  return test::scaled(test::box(), 2.0 / std::sqrt(3.0));
-}
+using test::seen_of;
+using test::unit_box;
 
 TEST(EvenOut, EvensOutTheDensity) {
   // Two squares of 10 x 10 cells; the left one has 100 points a cell, the right one 9.

@@ -6,20 +6,14 @@
 #include <array>
 #include <cmath>
 
+#include "prepare/seen_surface.h"
 #include "support/shapes.h"
 
 namespace spincat {
 namespace {
 
-SurfacePoints seen_of(const Mesh& mesh, std::uint64_t seed = 1) {
-  Random random(seed);
-  return external_surface(mesh, random);
-}
-
-// A box that fits into the unit sphere, as test::box.
-Mesh unit_box() {
-  return test::scaled(test::box(), 2.0 / std::sqrt(3.0));
-}
+using test::seen_of;
+using test::unit_box;
 
 TEST(ExternalSurface, OfASphereLiesOnItsFacesAndPointsOut) {
   const SurfacePoints seen = seen_of(test::icosphere(4));  // 5,120 faces: between 0.998 and 1 from the centre

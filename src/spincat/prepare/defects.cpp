@@ -1,23 +1,15 @@
 #include "spincat/prepare/defects.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <iterator>
+#include <utility>
 
+#include "spincat/prepare/mesh_edges.h"
 #include "spincat/prepare/normals.h"
-#include "spincat/prepare/repeats.h"
 
 namespace spincat {
 namespace {
-
-// A triangle's way along an edge, whose smaller end is written first.
-struct Side {
-  std::uint32_t low = 0;
-  std::uint32_t high = 0;
-  std::uint32_t triangle = 0;
-  bool forward = false;  // from the smaller end to the larger
-};
 
 // Two triangles that hang together, and whether they look the same way.
 struct Neighbour {
@@ -46,36 +38,23 @@ void find_flat_and_repeated(const Mesh& mesh, const std::vector<Triangle>& corne
   std::ranges::sort(defects.repeated);
 }
 
-// The sides of all triangles that are neither flat nor repeated, by their edges.
+// The sides of all triangles that are neither flat nor repeated.
 std::vector<Side> sides_of(const std::vector<Triangle>& corners, const MeshDefects& defects) {
   std::vector<Side> sides;
   for (std::uint32_t f = 0; f < corners.size(); ++f) {
-    if (std::ranges::binary_search(defects.flat, f) || std::ranges::binary_search(defects.repeated, f)) {
-      continue;
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t from = corners[f][k];
-      const std::uint32_t to = corners[f][(k + 1) % 3];
-      sides.push_back({std::min(from, to), std::max(from, to), f, from < to});
+    if (!std::ranges::binary_search(defects.flat, f) && !std::ranges::binary_search(defects.repeated, f)) {
+      add_sides(corners[f], f, sides);
     }
   }
-  std::ranges::stable_sort(sides, {}, [](const Side& side) { return std::array{side.low, side.high}; });
   return sides;
 }
 
-std::vector<std::vector<Neighbour>> neighbours_of(const std::vector<Side>& sides, std::size_t triangles) {
+std::vector<std::vector<Neighbour>> neighbours_of(std::vector<Side> sides, std::size_t triangles) {
   std::vector<std::vector<Neighbour>> neighbours(triangles);
-  for (std::size_t begin = 0; begin < sides.size();) {
-    std::size_t end = begin;
-    while (end < sides.size() && sides[end].low == sides[begin].low && sides[end].high == sides[begin].high) {
-      ++end;
-    }
-    if (end - begin == 2) {
-      const bool same_way = sides[begin].forward != sides[begin + 1].forward;
-      neighbours[sides[begin].triangle].push_back({sides[begin + 1].triangle, same_way});
-      neighbours[sides[begin + 1].triangle].push_back({sides[begin].triangle, same_way});
-    }
-    begin = end;
+  for (const auto& [a, b] : shared_edges(std::move(sides))) {
+    const bool same_way = a.forward != b.forward;
+    neighbours[a.triangle].push_back({b.triangle, same_way});
+    neighbours[b.triangle].push_back({a.triangle, same_way});
   }
   return neighbours;
 }
@@ -111,11 +90,7 @@ void find_flipped(const std::vector<std::vector<Neighbour>>& neighbours, std::ve
 }  // namespace
 
 MeshDefects defects_of(const Mesh& mesh) {
-  const std::vector<std::uint32_t> first = first_at_position(mesh.vertices);
-  std::vector<Triangle> corners = mesh.triangles;
-  for (Triangle& t : corners) {
-    t = {first[t[0]], first[t[1]], first[t[2]]};
-  }
+  const std::vector<Triangle> corners = merged_corners(mesh);
   MeshDefects defects;
   find_flat_and_repeated(mesh, corners, defects);
   find_flipped(neighbours_of(sides_of(corners, defects), corners.size()), defects.flipped);

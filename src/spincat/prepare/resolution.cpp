@@ -1,15 +1,13 @@
 #include "spincat/prepare/resolution.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "spincat/geometry/point_tree.h"
+#include "spincat/prepare/neighbour_distances.h"
 #include "spincat/prepare/normalise.h"
 #include "spincat/prepare/repeats.h"
 #include "spincat/prepare/surface_samples.h"
@@ -66,17 +64,7 @@ double cloud_resolution(std::span<const Vec3> points) {
   if (points.size() < 2) {
     return 0.0;
   }
-  const PointsAdaptor adaptor{points};
-  const PointTree tree(3, adaptor, {10});
-  std::vector<double> distances;
-  distances.reserve(points.size());
-  for (const Vec3& p : points) {
-    std::array<std::uint32_t, 2> found{};
-    std::array<double, 2> squared{};
-    tree.knnSearch(p.data(), 2, found.data(), squared.data());
-    distances.push_back(std::sqrt(squared[1]));
-  }
-  return upper_median(std::move(distances));
+  return upper_median(neighbour_distances(points, 1));
 }
 
 double object_resolution(const Object& object) {

@@ -10,6 +10,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "labelled_files.h"
 #include "objects.h"
 #include "settings.h"
 #include "work.h"
@@ -45,10 +46,7 @@ Measured measure(const Dataset& dataset, const std::optional<Dataset>& tested, c
                  const Settings& settings, bool strict, int threads, const py::object& progress) {
   threads_of(threads);
   Evaluation result = run_work(progress, [&](Telling& telling) {
-    Execution execution;
-    execution.threads = threads;
-    execution.strict = strict;
-    execution.progress = telling.progress();
+    const Execution execution = telling.execution(threads, strict);
     return tested ? evaluate_across(dataset, *tested, settings, options, execution)
                   : evaluate(dataset, settings, options, execution);
   });
@@ -59,13 +57,8 @@ Measured evaluate_files(const std::vector<fs::path>& files, const std::vector<st
                         const std::vector<std::string>& categories, const std::string& name, const py::dict& options,
                         const std::string& preset_name, const py::dict& chosen, int threads,
                         const py::object& progress) {
-  Dataset dataset;
-  dataset.name = name;
-  dataset.categories = categories;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    dataset.objects.push_back({files[i], labels.at(i), {}});
-  }
-  return measure(dataset, std::nullopt, options_of(options), settings_of(preset_name, chosen), true, threads, progress);
+  return measure(labelled_files(files, labels, categories, name), std::nullopt, options_of(options),
+                 settings_of(preset_name, chosen), true, threads, progress);
 }
 
 Measured evaluate_sources(const std::vector<fs::path>& sources, const DatasetOptions& data,

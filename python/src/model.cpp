@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bindings.h"
+#include "labelled_files.h"
 #include "settings.h"
 #include "work.h"
 
@@ -31,27 +32,16 @@ py::list list_of(const std::vector<SkippedObject>& skipped) {
 py::tuple train_on(const Dataset& dataset, const Settings& settings, bool strict, int threads,
                    const py::object& progress) {
   threads_of(threads);
-  TrainResult result = run_work(progress, [&](Telling& telling) {
-    Execution execution;
-    execution.threads = threads;
-    execution.strict = strict;
-    execution.progress = telling.progress();
-    return train(dataset, settings, execution);
-  });
+  TrainResult result = run_work(
+      progress, [&](Telling& telling) { return train(dataset, settings, telling.execution(threads, strict)); });
   return py::make_tuple(std::move(result.model), list_of(result.skipped));
 }
 
-// `labels` are indices into `categories`, which are sorted.
 py::tuple train_files(const std::vector<fs::path>& files, const std::vector<std::uint32_t>& labels,
                       const std::vector<std::string>& categories, const std::string& name,
                       const std::string& preset_name, const py::dict& chosen, int threads, const py::object& progress) {
-  Dataset dataset;
-  dataset.name = name;
-  dataset.categories = categories;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    dataset.objects.push_back({files[i], labels.at(i), {}});
-  }
-  return train_on(dataset, settings_of(preset_name, chosen), true, threads, progress);
+  return train_on(labelled_files(files, labels, categories, name), settings_of(preset_name, chosen), true, threads,
+                  progress);
 }
 
 py::tuple train_sources(const std::vector<fs::path>& sources, const DatasetOptions& options, bool all, bool strict,

@@ -25,6 +25,14 @@ class Telling {
   Progress progress() {
     return [this](std::string_view stage, std::size_t done, std::size_t total) { (*this)(stage, done, total); };
   }
+  // How the library is to work while it tells.
+  Execution execution(int threads, bool strict) {
+    Execution result;
+    result.threads = threads;
+    result.strict = strict;
+    result.progress = progress();
+    return result;
+  }
 
  private:
   friend class WorkThread;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "spincat/geometry/evenly_spread.h"
 #include "spincat/judge/fixed_product.h"
 #include "spincat/judge/pairwise_svm.h"
 
@@ -17,16 +18,6 @@ constexpr std::size_t kMostRows = 1500;  // of either side: their square is work
 constexpr double kTurnedAway = 0.03;     // of the known objects
 constexpr double kAsLike = 0.9;          // quantile
 constexpr std::size_t kFewestMargins = 10;
-
-template <class T>
-std::vector<T> evenly_spread(std::span<const T> all) {
-  const std::size_t count = std::min(all.size(), kMostRows);
-  std::vector<T> result;
-  for (std::size_t i = 0; i < count; ++i) {
-    result.push_back(all[i * all.size() / count]);
-  }
-  return result;
-}
 
 // For each row how like it is the nearest of another object of its category; rows that have none are left out.
 std::vector<float> likeness_within(const FeatureMatrix& rows, std::span<const RowOrigin> origins) {
@@ -68,8 +59,8 @@ float KnownJudge::margin(std::span<const float> seen) const {
 
 std::vector<std::uint32_t> unlike_known(const FeatureMatrix& seen, std::span<const std::uint32_t> known,
                                         std::span<const RowOrigin> origins, std::span<const std::uint32_t> background) {
-  const FeatureMatrix rows = seen(evenly_spread(known), Eigen::all);
-  std::vector<float> within = likeness_within(rows, evenly_spread(origins));
+  const FeatureMatrix rows = seen(evenly_spread(known, kMostRows), Eigen::all);
+  std::vector<float> within = likeness_within(rows, evenly_spread(origins, kMostRows));
   if (within.empty()) {
     return {background.begin(), background.end()};
   }
@@ -87,8 +78,8 @@ std::vector<std::uint32_t> unlike_known(const FeatureMatrix& seen, std::span<con
 
 KnownJudge train_known_judge(const FeatureMatrix& seen, std::span<const std::uint32_t> known,
                              std::span<const std::uint32_t> background) {
-  std::vector<std::uint32_t> rows = evenly_spread(known);
-  const std::vector<std::uint32_t> others = evenly_spread(background);
+  std::vector<std::uint32_t> rows = evenly_spread(known, kMostRows);
+  const std::vector<std::uint32_t> others = evenly_spread(background, kMostRows);
   const auto first_count = static_cast<std::uint32_t>(rows.size());
   rows.insert(rows.end(), others.begin(), others.end());
   const auto price = [&](std::size_t count) {

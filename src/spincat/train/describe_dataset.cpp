@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <numeric>
 #include <span>
@@ -15,6 +16,7 @@
 #include "spincat/describe/describe_tasks.h"
 #include "spincat/describe/table_rows.h"
 #include "spincat/error.h"
+#include "spincat/geometry/evenly_spread.h"
 #include "spincat/parallel/farm_execution.h"
 #include "spincat/train/background.h"
 #include "spincat/train/learned_space.h"
@@ -146,25 +148,24 @@ class Describing {
   std::size_t described_ = 0;
 };
 
+std::vector<std::uint32_t> all_of(std::size_t count) {
+  std::vector<std::uint32_t> all(count);
+  std::iota(all.begin(), all.end(), 0U);
+  return all;
+}
+
 // Objects evenly spread over the data set, as many as give the rows of a sample; and all others.
 struct SampleAndRest {
   std::vector<std::uint32_t> sample;
   std::vector<std::uint32_t> rest;
 
   SampleAndRest(std::size_t objects, std::size_t rows_each) {
-    const std::size_t count = std::clamp<std::size_t>(kMostSampleRows / rows_each, 1, objects);
-    for (std::uint32_t i = 0; i < objects; ++i) {
-      const bool is_next = i == sample.size() * objects / count;
-      (is_next && sample.size() < count ? sample : rest).push_back(i);
-    }
+    const std::vector<std::uint32_t> all = all_of(objects);
+    const std::size_t most = std::max<std::size_t>(kMostSampleRows / rows_each, 1);
+    sample = evenly_spread(std::span<const std::uint32_t>(all), most);
+    std::ranges::set_difference(all, sample, std::back_inserter(rest));
   }
 };
-
-std::vector<std::uint32_t> all_of(std::size_t count) {
-  std::vector<std::uint32_t> all(count);
-  std::iota(all.begin(), all.end(), 0U);
-  return all;
-}
 
 // Every object's features.
 TableRows describe_whole(Describing& describing, std::size_t rows_each, const Describing::KeepsRows& keeps_rows) {

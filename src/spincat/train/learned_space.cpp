@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "spincat/geometry/evenly_spread.h"
 #include "spincat/geometry/parallel_for.h"
 #include "spincat/judge/principal_directions.h"
 
@@ -12,16 +13,6 @@ namespace {
 
 // Directions besides those of the space are followed, as those of a sample are not quite those of all rows.
 constexpr int kMoreDirections = 56;
-
-// At most so many of the rows, evenly spread over them.
-std::vector<std::uint32_t> sample_of(std::span<const std::uint32_t> rows) {
-  const std::size_t count = std::min(rows.size(), kMostSampleRows);
-  std::vector<std::uint32_t> sample;
-  for (std::size_t i = 0; i < count; ++i) {
-    sample.push_back(rows[i * rows.size() / count]);
-  }
-  return sample;
-}
 
 std::vector<std::uint32_t> labels_of(std::span<const std::uint32_t> labels, std::span<const std::uint32_t> rows) {
   std::vector<std::uint32_t> result;
@@ -86,7 +77,7 @@ LearnedSpace learn_space(const FeatureMatrix& features, const GramMatrices& gram
     space.middle = std::move(learned.middle);
     space.places = product_with_transposed<float>(features, space.axes);
   } else {
-    space.sample = sample_of(rows);
+    space.sample = evenly_spread(rows, kMostSampleRows);
     const FeatureMatrix products = products_with(features, gram, space.sample);
     const FeatureMatrix of_sample = products(space.sample, Eigen::all);
     const FeatureMatrix directions = principal_directions(of_sample, dimensions + kMoreDirections).transpose();

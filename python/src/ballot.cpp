@@ -69,11 +69,6 @@ std::string page(const NamedItem& ballot) {
   }));
 }
 
-const char* name_of(SpinAxes axes) {
-  constexpr const char* kNames[] = {"normals", "radial", "x", "y", "z"};
-  return kNames[static_cast<std::size_t>(axes)];
-}
-
 // The spin points of a part in the unit of the object, and what they say.
 py::dict part_of(const PartEvidence& evidence) {
   const PreparedObject& prepared = evidence.prepared.preparation.object;
@@ -87,7 +82,7 @@ py::dict part_of(const PartEvidence& evidence) {
     std::copy_n(axis.data(), 3, axes.mutable_data() + 3 * k);
   }
   py::dict part;
-  part["axes"] = name_of(evidence.prepared.axes);
+  part["axes"] = py::str(std::string(name_of(evidence.prepared.axes)));
   part["points"] = points;
   part["directions"] = axes;
   part["contributions"] = array_of(evidence.of_point);

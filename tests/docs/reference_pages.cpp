@@ -3,31 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "support/shell.h"
+
 namespace spincat::test {
 namespace {
 
 std::string output_of(const std::string& command) {
-  FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) {
-    throw std::runtime_error("cannot run " + command);
-  }
-  std::string text;
-  std::array<char, 4096> piece{};
-  for (std::size_t count = 0; (count = std::fread(piece.data(), 1, piece.size(), pipe)) > 0;) {
-    text.append(piece.data(), count);
-  }
-  if (pclose(pipe) != 0) {
+  const ShellResult result = run_in_shell(command);
+  if (result.code != 0) {
     throw std::runtime_error("failed: " + command);
   }
-  return text;
+  return result.out;
 }
 
 std::vector<std::string> lines_of(const std::string& text) {

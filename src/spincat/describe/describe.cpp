@@ -1,6 +1,7 @@
 #include "spincat/describe/describe.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -10,6 +11,7 @@
 #include "spincat/describe/stopwatch.h"
 #include "spincat/encode/block_sums.h"
 #include "spincat/encode/encoding.h"
+#include "spincat/geometry/mean_position.h"
 #include "spincat/geometry/random.h"
 #include "spincat/prepare/prepare.h"
 #include "spincat/prepare/resolution.h"
@@ -74,14 +76,6 @@ std::vector<Part> parts_of(const Settings& settings) {
   return parts;
 }
 
-Eigen::Vector3f mean_position(const OrientedPoints& points) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    sum += points.position(i).cast<double>();
-  }
-  return (sum / static_cast<double>(points.size())).cast<float>();
-}
-
 // A spin point at the very middle keeps its normal.
 void turn_outwards(const Eigen::Vector3f& middle, OrientedPoints& spin_points) {
   for (std::size_t i = 0; i < spin_points.size(); ++i) {
@@ -101,7 +95,7 @@ void turn_upwards(SpinAxes up, OrientedPoints& spin_points) {
 
 void turn_axes(SpinAxes axes, PreparedObject& object) {
   if (axes == SpinAxes::radial) {
-    turn_outwards(mean_position(object.surface), object.spin_points);
+    turn_outwards(mean_position(object.surface).cast<float>(), object.spin_points);
   } else if (axes != SpinAxes::normals) {
     turn_upwards(axes, object.spin_points);
   }
@@ -148,6 +142,11 @@ void append(const FeatureVector& part, float factor, FeatureVector& whole) {
 }
 
 }  // namespace
+
+std::string_view name_of(SpinAxes axes) {
+  constexpr std::array<std::string_view, 5> kNames = {"normals", "radial", "x", "y", "z"};
+  return kNames[static_cast<std::size_t>(axes)];
+}
 
 std::uint64_t points_seed(const Settings& settings, int k) {
   return derive_seed(settings.seed, static_cast<std::uint64_t>(k));

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <string_view>
 #include <vector>
 
 #include "spincat/encode/feature_vector.h"
@@ -63,6 +64,9 @@ enum class SpinAxes {
   y,
   z,
 };
+
+// The word for it: "normals", "radial", "x", "y" or "z".
+std::string_view name_of(SpinAxes axes);
 
 // What one part of an object's feature vector is made of, in one draw of its points.
 struct PreparedPart {

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <span>
 
+#include "spincat/geometry/mean_position.h"
+
 namespace spincat {
 namespace {
 
@@ -18,11 +20,7 @@ Eigen::Vector3f normal_at(const OrientedPoints& surface, const OrientedPoints& s
 }  // namespace
 
 std::vector<std::uint8_t> bands_of(const OrientedPoints& surface, const OrientedPoints& spin_points) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < surface.size(); ++i) {
-    sum += surface.position(i).cast<double>();
-  }
-  const Eigen::Vector3d g = sum / static_cast<double>(std::max<std::size_t>(surface.size(), 1));
+  const Eigen::Vector3d g = mean_position(surface);
   const std::size_t count = spin_points.size();
   std::vector<double> r(count);
   std::vector<double> h(count);

@@ -86,22 +86,6 @@ Json image_json(const PlacedPoint& placed, const Preparation& preparation, std::
           {"values", base64(greys)}};
 }
 
-const char* axes_name(SpinAxes axes) {
-  switch (axes) {
-    case SpinAxes::normals:
-      return "normals";
-    case SpinAxes::radial:
-      return "radial";
-    case SpinAxes::x:
-      return "x";
-    case SpinAxes::y:
-      return "y";
-    case SpinAxes::z:
-      return "z";
-  }
-  return "?";
-}
-
 Json part_json(const PartEvidence& part) {
   const std::size_t shown = std::min(part.of_point.size(), kMostSpinDots);
   const std::span<const float> values(part.of_point.data(), shown);
@@ -112,7 +96,7 @@ Json part_json(const PartEvidence& part) {
   }
   const OrientedPoints& points = part.prepared.preparation.object.spin_points;
   return {{"surface", name_of(part.prepared.surface)},
-          {"axes", axes_name(part.prepared.axes)},
+          {"axes", name_of(part.prepared.axes)},
           {"spin_points", points.size()},
           {"points", base64_positions(points, shown)},
           {"strongest", strongest},

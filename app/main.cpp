@@ -24,6 +24,7 @@
 #include "app/terminal/interrupt.h"
 #include "app/terminal/messages.h"
 #include "app/terminal/parse_errors.h"
+#include "app/version.h"
 #include "spincat/error.h"
 #include "spincat/parallel/placement.h"
 #include "spincat/parallel/task_farm.h"
@@ -90,7 +91,7 @@ int run(int argc, char** argv, TaskFarm& farm) {
       "  spincat classify my.spincat new.obj      name an object\n"
       "  spincat evaluate models/                 measure how often the names are right\n"
       "spincat COMMAND --help tells more.");
-  cli.set_version_flag("--version", "spincat " SPINCAT_VERSION);
+  cli.set_version_flag("--version", version_text, "Print the version and what this build can do");
   cli.require_subcommand(1);
   const std::vector<NamedCommand> commands = add_commands(cli);
   if (argc > 1 && argv[1][0] != '-' && std::ranges::find(commands, argv[1], &NamedCommand::name) == commands.end()) {

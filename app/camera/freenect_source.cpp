@@ -87,6 +87,10 @@ class Kinect : public FrameSource {
 
 }  // namespace
 
+bool has_kinect() {
+  return true;
+}
+
 std::unique_ptr<FrameSource> open_kinect(const FrameSettings& settings) {
   if (!is_there()) {
     throw RunError("no Kinect was found");
@@ -96,6 +100,10 @@ std::unique_ptr<FrameSource> open_kinect(const FrameSettings& settings) {
 }
 
 #else
+
+bool has_kinect() {
+  return false;
+}
 
 std::unique_ptr<FrameSource> open_kinect(const FrameSettings& /*settings*/) {
   throw InputError("freenect:", "this spincat was built without libfreenect (libfreenect-dev)");

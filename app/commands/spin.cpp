@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "app/commands/commands.h"
+#include "app/commands/spin_points.h"
 #include "app/options.h"
 #include "app/ranks/farm_run.h"
 #include "app/terminal/parse_errors.h"
@@ -33,6 +35,10 @@ struct SpinArguments {
   fs::path file;
   fs::path output;
   fs::path points_output;
+  fs::path index_output;
+  fs::path normals;
+  fs::path keypoints;
+  double radius = 0.0;  // 0: the settings say the size of a bin
   SettingsArguments settings;
   ReadLimits limits;
   RunOptions run;
@@ -56,8 +62,27 @@ Settings spin_settings(const SpinArguments& arguments) {
   if (std::ranges::any_of(choices.chosen, is_pcl)) {
     choices.base.spin.support_angle = 90.0;
   }
-  return choices.settings();
+  Settings settings = choices.settings();
+  if (arguments.radius > 0.0) {
+    const int width = settings.spin.image_width;
+    settings.spin.bin_size = settings.spin.convention == SpinConvention::pcl ? pcl_bin_size(arguments.radius, width)
+                                                                             : arguments.radius / width;
+    settings.bin_size_unit = BinSizeUnit::absolute;
+    settings.validate();
+  }
+  return settings;
 }
+
+// What the images are of and made from, in the prepared frame.
+struct SpinObject {
+  PreparedObject object;
+  SpinImageParams params;
+  SpinPoints spin_points;
+  std::size_t points_in_file = 0;
+
+  // How many of the file's points take no part; none where points are drawn.
+  std::size_t left_out() const { return object.surface_rows.empty() ? 0 : points_in_file - object.surface_rows.size(); }
+};
 
 // Some points of many, evenly chosen, in their order.
 OrientedPoints evenly_chosen(const OrientedPoints& points, std::size_t count) {
@@ -74,7 +99,9 @@ std::string_view as_bytes(std::span<const float> values) {
 }
 
 // Position (in the file's unit) and normal of each spin point, K x 6.
-void write_points(const fs::path& file, const OrientedPoints& points, const PreparedObject& object) {
+void write_points(const fs::path& file, const SpinObject& spin) {
+  const PreparedObject& object = spin.object;
+  const OrientedPoints& points = spin.spin_points.points;
   OutputFile out(file);
   out.write(npy_header(std::array<std::size_t, 2>{points.size(), 6}));
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -83,6 +110,15 @@ void write_points(const fs::path& file, const OrientedPoints& points, const Prep
     out.write(as_bytes(std::array{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),
                                   n.x(), n.y(), n.z()}));
   }
+  out.commit();
+}
+
+// Which point of the file each spin point is.
+void write_index(const fs::path& file, std::span<const std::uint32_t> rows) {
+  const std::vector<std::int64_t> numbers(rows.begin(), rows.end());
+  OutputFile out(file);
+  out.write(npy_header(std::array{numbers.size()}, "<i8"));
+  out.write({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(std::int64_t)});
   out.commit();
 }
 
@@ -110,8 +146,9 @@ void write_images(const SpinArguments& arguments, TaskFarm& farm, const DenseObj
   out.commit();
 }
 
-void write_sheet(const SpinArguments& arguments, const DenseObject& object, int threads, ProgressBar& bar) {
-  const OrientedPoints chosen = evenly_chosen(object.spin_points, static_cast<std::size_t>(arguments.sheet));
+void write_sheet(const SpinArguments& arguments, const DenseObject& object, std::size_t count, int threads,
+                 ProgressBar& bar) {
+  const OrientedPoints chosen = evenly_chosen(object.spin_points, count);
   SpinImages images(chosen.size(), object.params.shape());
   const auto keep = [&](const SpinImageBlock& block) {
     for (std::size_t k = 0; k < block.images.count(); ++k) {
@@ -125,9 +162,27 @@ void write_sheet(const SpinArguments& arguments, const DenseObject& object, int 
   out.commit();
 }
 
-Preparation prepared_object(const SpinArguments& arguments, const Settings& settings) {
-  return naming_file(arguments.file,
-                     [&] { return prepare_object(read_object(arguments.file, arguments.limits), settings); });
+SpinObject prepared_object(const SpinArguments& arguments, const Settings& settings) {
+  Object object = read_object(arguments.file, arguments.limits);
+  SpinObject spin;
+  spin.points_in_file = points_in_file(object);
+  if (!arguments.normals.empty()) {
+    object = with_normals(object, arguments.normals);
+  }
+  auto [prepared, params] = naming_file(arguments.file, [&] { return prepare_object(object, settings); });
+  spin.params = params;
+  if (!arguments.keypoints.empty()) {
+    spin.spin_points = read_keypoints(arguments.keypoints, prepared, spin.points_in_file);
+  } else if (arguments.settings.asks_for("spin_points")) {
+    spin.spin_points = {prepared.spin_points, prepared.spin_rows};
+  } else {
+    spin.spin_points = {prepared.surface, prepared.surface_rows};
+  }
+  spin.object = std::move(prepared);
+  if (!arguments.index_output.empty() && spin.spin_points.rows.empty()) {
+    throw InputError("--index-output", "the spin points are no points of the file: they are drawn, or your own");
+  }
+  return spin;
 }
 
 // Where a name leads to, as far as that can be told; whoever writes there says what is wrong with it.
@@ -139,67 +194,131 @@ fs::path place_of(const fs::path& file) {
 
 // Before the work, not after it.
 void check_outputs(const SpinArguments& arguments) {
-  check_writable(arguments.output);
-  if (arguments.points_output.empty()) {
-    return;
+  const std::array<std::pair<const char*, const fs::path&>, 3> outputs = {{{"--output", arguments.output},
+                                                                           {"--points-output", arguments.points_output},
+                                                                           {"--index-output", arguments.index_output}}};
+  for (std::size_t k = 0; k < outputs.size(); ++k) {
+    const auto& [option, file] = outputs[k];
+    if (file.empty()) {
+      continue;
+    }
+    const bool may_be_picture = k == 0;
+    if (lower_extension(file) != ".npy" && !(may_be_picture && lower_extension(file) == ".png")) {
+      throw InputError(file.string(),
+                       fmt::format("expected a name that ends in .npy{}", may_be_picture ? " or .png" : ""));
+    }
+    for (std::size_t other = 0; other < k; ++other) {
+      if (place_of(file) == place_of(outputs[other].second)) {
+        throw InputError(file.string(), fmt::format("{} and {} name the same file", outputs[other].first, option));
+      }
+    }
+    check_writable(file);
   }
-  if (lower_extension(arguments.points_output) != ".npy") {
-    throw InputError(arguments.points_output.string(), "expected a name that ends in .npy");
-  }
-  if (place_of(arguments.points_output) == place_of(arguments.output)) {
-    throw InputError(arguments.output.string(), "--output and --points-output name the same file");
-  }
-  check_writable(arguments.points_output);
 }
 
 // Before the work, not after it.
 void check_arguments(const SpinArguments& arguments) {
-  if (lower_extension(arguments.output) != ".png" && lower_extension(arguments.output) != ".npy") {
-    throw InputError(arguments.output.string(), "expected a name that ends in .npy or .png");
+  if (arguments.radius > 0.0 && arguments.settings.asks_for("bin_size")) {
+    throw InputError("--radius", "says the size of a bin, as --bin-size does; give one of them");
+  }
+  if (!arguments.keypoints.empty() && arguments.settings.asks_for("spin_points")) {
+    throw InputError("--keypoints", "says which points the images are of, as --spin-points does; give one of them");
   }
   check_outputs(arguments);
 }
 
 RunIdentity spin_identity(const SpinArguments& arguments, const Settings& settings) {
   FilesIdentity data;
-  data.add(arguments.file);
+  for (const fs::path& file : {arguments.file, arguments.normals, arguments.keypoints}) {
+    if (!file.empty()) {
+      data.add(file);
+    }
+  }
   const std::string more =
       fmt::format("{} {}", arguments.settings.asks_for("spin_points"), limits_text(arguments.limits));
   return {settings_identity("spin", settings, more), data.text()};
+}
+
+void print_result(const SpinArguments& arguments, const SpinObject& spin, std::size_t images) {
+  const SpinImageShape shape = spin.params.shape();
+  const std::size_t all = spin.spin_points.points.size();
+  if (arguments.run.json) {
+    fmt::print("{}\n", spin_json({.file = arguments.output.string(),
+                                  .images = images,
+                                  .spin_points = all,
+                                  .surface_points = spin.object.surface.size(),
+                                  .left_out = spin.left_out(),
+                                  .shape = shape,
+                                  .bin_size = spin.params.bin_size / spin.object.scale}));
+    return;
+  }
+  fmt::print("wrote {}: {}{} images of {} x {} from {} surface points{}\n", printable(arguments.output.string()),
+             images, images < all ? fmt::format(" of {}", all) : "", shape.rows, shape.columns,
+             spin.object.surface.size(),
+             spin.left_out() == 0
+                 ? ""
+                 : fmt::format("; left out: {} of the file's {} points", spin.left_out(), spin.points_in_file));
 }
 
 int run_spin(const SpinArguments& arguments, TaskFarm& farm) {
   const Settings settings = spin_settings(arguments);
   check_arguments(arguments);
   FarmRun run(farm, arguments.run);
-  const auto [object, params] = prepared_object(arguments, settings);
-  const bool chosen = arguments.settings.asks_for("spin_points");
-  const OrientedPoints& spin_points = chosen ? object.spin_points : object.surface;
-  const DenseObject dense{object.surface, spin_points, params};
+  const SpinObject spin = prepared_object(arguments, settings);
+  const OrientedPoints& spin_points = spin.spin_points.points;
+  const DenseObject dense{spin.object.surface, spin_points, spin.params};
+  std::size_t images = spin_points.size();
   {
     ProgressBar bar(arguments.run);
     if (lower_extension(arguments.output) == ".png") {
-      write_sheet(arguments, dense, farm.threads(), bar);
+      images = std::min(images, static_cast<std::size_t>(arguments.sheet));
+      write_sheet(arguments, dense, images, farm.threads(), bar);
     } else {
       run.keep_journal(arguments.output, [&] { return spin_identity(arguments, settings); });
       write_images(arguments, farm, dense, bar);
     }
   }
   if (!arguments.points_output.empty()) {
-    write_points(arguments.points_output, spin_points, object);
+    write_points(arguments.points_output, spin);
+  }
+  if (!arguments.index_output.empty()) {
+    write_index(arguments.index_output, spin.spin_points.rows);
   }
   run.finish();
-  if (arguments.output == "/dev/stdout") {
-    return 0;  // the result went there; nothing must follow it
-  }
-  if (arguments.run.json) {
-    fmt::print("{}\n", spin_json(arguments.output.string(), spin_points.size(), params, object));
-  } else {
-    fmt::print("wrote {}: {} spin points, images of {} x {} from {} surface points\n",
-               printable(arguments.output.string()), spin_points.size(), params.shape().rows, params.shape().columns,
-               object.surface.size());
+  if (arguments.output != "/dev/stdout") {  // the result went there; nothing must follow it
+    print_result(arguments, spin, images);
   }
   return 0;
+}
+
+void add_files(CLI::App& command, SpinArguments& arguments) {
+  command.add_option("file", arguments.file, "An object")->type_name("FILE")->required();
+  command.add_option("-o,--output", arguments.output, "A .npy file (K x rows x columns) or a .png contact sheet")
+      ->type_name("FILE")
+      ->required();
+  command
+      .add_option("--points-output", arguments.points_output,
+                  "A .npy file for the spin points: K x 6, positions in the file's unit and normals")
+      ->type_name("FILE");
+  command
+      .add_option("--index-output", arguments.index_output,
+                  "A .npy file for which points of the file they are (0: the first)")
+      ->type_name("FILE");
+  command
+      .add_option("--keypoints", arguments.keypoints,
+                  "A .npy file of the points to make images of: indices of the file's points, or points of your own, "
+                  "K x 6, with the axes of their images")
+      ->type_name("FILE");
+  command
+      .add_option("--normals", arguments.normals,
+                  "A .npy file of normals, N x 3, one for each point (or vertex) of the file")
+      ->type_name("FILE");
+  command
+      .add_option("--radius", arguments.radius,
+                  "Instead of a bin size: how far images reach, in the file's unit; with --convention pcl PCL's search "
+                  "radius")
+      ->type_name("LENGTH")
+      ->check(in_range(SpinImageParams::kBinSize));
 }
 
 }  // namespace
@@ -211,16 +330,11 @@ Command add_spin(CLI::App& parent) {
       "Example:\n"
       "  spincat spin scan.ply -o images.npy --points-output points.npy\n"
       "  spincat spin chair.obj -o sheet.png --surface samples --bin-size 0.1rel\n"
-      "Without --spin-points there is an image at every surface point, in the order of the file's points that are "
+      "  spincat spin scan.pcd -o images.npy --convention pcl --radius 0.05 --keypoints k.npy\n"
+      "Without --spin-points and --keypoints there is an image at every surface point, in the order of the file's "
+      "points that are "
       "used.");
-  command->add_option("file", arguments->file, "An object")->type_name("FILE")->required();
-  command->add_option("-o,--output", arguments->output, "A .npy file (K x rows x columns) or a .png contact sheet")
-      ->type_name("FILE")
-      ->required();
-  command
-      ->add_option("--points-output", arguments->points_output,
-                   "A .npy file for the spin points: K x 6, positions in the file's unit and normals")
-      ->type_name("FILE");
+  add_files(*command, *arguments);
   command->add_option("--sheet", arguments->sheet, "Images on a contact sheet, evenly chosen")
       ->type_name("N")
       ->check(in_range({1, 1'000}))

@@ -58,10 +58,14 @@ std::vector<fs::path> plugin_folders() {
   return {here / "mpi", here.parent_path() / SPINCAT_PLUGIN_FOLDER};
 }
 
+fs::path plugin_file(const fs::path& folder, const std::string& mpi) {
+  return folder / ("spincat_mpi_" + mpi + ".so");
+}
+
 // The plug-in's function, or nothing and in `tried` why not.
 JoinRanks load(const std::string& mpi, std::vector<std::string>& tried) {
   for (const fs::path& folder : plugin_folders()) {
-    const fs::path file = folder / ("spincat_mpi_" + mpi + ".so");
+    const fs::path file = plugin_file(folder, mpi);
     std::error_code error;
     if (!fs::exists(file, error)) {
       continue;
@@ -88,6 +92,20 @@ std::string advice(const Launch& launch) {
 }
 
 }  // namespace
+
+std::vector<std::string> mpi_plugins() {
+  std::vector<std::string> found;
+  for (const char* mpi : {"openmpi", "mpich", "other"}) {
+    for (const fs::path& folder : plugin_folders()) {
+      std::error_code error;
+      if (fs::exists(plugin_file(folder, mpi), error)) {
+        found.emplace_back(mpi);
+        break;
+      }
+    }
+  }
+  return found;
+}
 
 Launch read_launch() {
   Launch launch;

@@ -22,6 +22,9 @@ struct Launch {
 
 Launch read_launch();
 
+// The MPIs for which there is a plug-in: "openmpi", "mpich", "other".
+std::vector<std::string> mpi_plugins();
+
 // The usual one; with SPINCAT_SHARE=always rank 0 does nothing that another rank can do, broadcasts tables however
 // small they are, and tells what the others did: so small runs test what large ones do.
 FarmPolicy farm_policy();

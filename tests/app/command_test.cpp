@@ -9,7 +9,6 @@
 #include <cmath>
 #include <csignal>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -318,7 +317,8 @@ TEST_F(Command, WrongUseAndBadInputAreOneLineAndExitTwo) {
       {"classify shapes.spincat same.xyz", "same.xyz: all its points are at one place"},
       {"classify shapes.spincat empty", "empty: holds no object files"},
       {"spin new-cone.off -o images.txt", "images.txt: expected a name that ends in .npy or .png"},
-      {"spin new-cone.off -o a.npy --points-output ./a.npy", "a.npy: --output and --points-output name the same file"},
+      {"spin new-cone.off -o a.npy --points-output ./a.npy",
+       "./a.npy: --output and --points-output name the same file"},
       {"spin new-cone.off -o a.npy --points-output a.txt", "a.txt: expected a name that ends in .npy"},
       {"train shapes -o x.spincat --seed -1", "--seed"},
       {"train split.csv -o x.spincat", "split.csv: line 2: split 'Train' is not known"},
@@ -505,48 +505,6 @@ TEST_F(Command, CtrlCLeavesTheOldModelAndNothingElse) {
   EXPECT_EQ(contents(dir_.path() / ".err"), "spincat: interrupted\n");
   EXPECT_EQ(contents(dir_.path() / "x.spincat"), "old");
   EXPECT_EQ(files_in_dir(), files);
-}
-
-// The floats after the header of a .npy file.
-std::vector<float> npy_values(const fs::path& file) {
-  const std::string bytes = contents(file);
-  const std::size_t begin = 10 + static_cast<unsigned char>(bytes[8]) + 256U * static_cast<unsigned char>(bytes[9]);
-  std::vector<float> values((bytes.size() - begin) / sizeof(float));
-  std::memcpy(values.data(), bytes.data() + begin, values.size() * sizeof(float));
-  return values;
-}
-
-TEST_F(Command, SpinWritesAnImageAtEveryPoint) {
-  // Two points, 1 apart along x, normals along z: each sees itself at alpha 0 and the other at alpha 1, both at beta 0.
-  dir_.write("pair.xyz", "10 0 0 0 0 1\n11 0 0 0 0 1\n");
-  const Result result = run("spin pair.xyz -o pair.npy --points-output points.npy --image-width 4 --bin-size 0.5abs");
-  ASSERT_EQ(result.code, 0) << result.err;
-  EXPECT_EQ(result.out, "wrote pair.npy: 2 spin points, images of 4 x 4 from 2 surface points\n");
-  EXPECT_EQ(result.err, "");
-  EXPECT_NE(contents(dir_.path() / "pair.npy").find("'shape': (2, 4, 4, )"), std::string::npos);
-  const std::vector<float> images = npy_values(dir_.path() / "pair.npy");
-  ASSERT_EQ(images.size(), 32U);
-  for (std::size_t bin = 0; bin < 32; ++bin) {
-    // beta 0 is the upper edge of row 2; alpha 0 and 1 are the left edges of columns 0 and 2
-    EXPECT_NEAR(images[bin], bin % 16 == 8 || bin % 16 == 10 ? 1.0F : 0.0F, 1e-6F) << bin;
-  }
-  const std::vector<float> points = npy_values(dir_.path() / "points.npy");
-  const std::vector<float> expected = {10, 0, 0, 0, 0, 1, 11, 0, 0, 0, 0, 1};
-  ASSERT_EQ(points.size(), expected.size());
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    EXPECT_NEAR(points[i], expected[i], 1e-5F) << i;
-  }
-}
-
-TEST_F(Command, SpinGivesTheSameBytesForAnyNumberOfThreads) {
-  dir_.write("cone.off", cone_off(0.5, 1.0));
-  const std::string settings = " --surface samples --points 3000 --bin-size 0.1rel";
-  ASSERT_EQ(run("spin cone.off -o a.npy --threads 1" + settings).code, 0);
-  ASSERT_EQ(run("spin cone.off -o b.npy --threads 3" + settings).code, 0);
-  EXPECT_EQ(npy_values(dir_.path() / "a.npy").size(), 3000U * 400U);
-  EXPECT_TRUE(contents(dir_.path() / "a.npy") == contents(dir_.path() / "b.npy"));
-  ASSERT_EQ(run("spin cone.off -o sheet.png --sheet 9" + settings).code, 0);
-  EXPECT_EQ(contents(dir_.path() / "sheet.png").substr(1, 3), "PNG");
 }
 
 TEST_F(Command, ViewsAreTaughtAndMeasuredAndClassifySaysWhatAMeshIsToThem) {

@@ -228,5 +228,18 @@ TEST(ObjectExtensions, AreThoseOfObjectFiles) {
   }
 }
 
+TEST(ReadObject, TellsWhichPointsItLeftOut) {
+  using Rows = std::vector<std::uint32_t>;
+  EXPECT_EQ(test::read_cloud("a.xyz", "0 0 0\n# a scan\nnan 0 0\n1 2 3\n0 inf 0\n").left_out, (Rows{1, 3}));
+  EXPECT_EQ(test::read_cloud("a.off", "OFF\n3 0 0\nnan 0 0\n1 2 3\n4 5 6\n").left_out, (Rows{0}));
+  EXPECT_EQ(test::read_mesh("a.off", "OFF\n4 1 0\n0 0 0\nnan 0 0\n1 0 0\n0 1 0\n3 0 2 3\n").left_out, (Rows{1}));
+  EXPECT_EQ(test::read_cloud("a.ply",
+                             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty "
+                             "float z\nend_header\n0 0 0\n1 2 3\nnan nan nan\n")
+                .left_out,
+            (Rows{2}));
+  EXPECT_TRUE(test::read_cloud("a.xyz", "0 0 0\n1 2 3\n").left_out.empty());
+}
+
 }  // namespace
 }  // namespace spincat

@@ -77,6 +77,8 @@ TEST(Facts, OfACloud) {
   EXPECT_EQ(facts.triangles, 0U);
   EXPECT_DOUBLE_EQ(facts.resolution, 2.0);  // 4, 2, 2: the repeated point counts once
   EXPECT_TRUE(facts_of(PointCloud{{{0, 0, 0}}, {{0, 0, 1}}, {}}).has_normals);
+  EXPECT_EQ(facts.unfinite_points, 0U);
+  EXPECT_EQ(facts_of(PointCloud{cloud.points, {}, {}, {2, 5}}).unfinite_points, 2U);
 }
 
 }  // namespace

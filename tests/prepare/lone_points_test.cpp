@@ -146,6 +146,15 @@ TEST(WithoutLonePoints, RepeatedZerosAreNothingMeasured) {
   EXPECT_EQ(result.sensor, cloud.sensor);
 }
 
+TEST(WithoutLonePoints, TellsWhichPointsOfTheFileWent) {
+  std::vector<Vec3> points = surface(2'000);
+  points.insert(points.begin() + 7, points[3]);
+  points.insert(points.begin() + 100, Vec3(60, 0, 0));
+  const PointCloud cloud{points, {}, {}, {0, 50}};  // a reader left out the first and the 51st point of the file
+  EXPECT_EQ(without_lone_points(cloud).left_out, (Indices{0, 8, 50, 102}));
+  EXPECT_EQ(without_lone_points({surface(2'000), {}, {}, {5}}).left_out, Indices{5});
+}
+
 TEST(WithoutLonePoints, ZerosStayWhereTheyAreAllThereIs) {
   EXPECT_EQ(without_lone_points({{{0, 0, 0}, {0, 0, 0}}, {}, {}}).points, (std::vector<Vec3>{{0, 0, 0}}));
 }

@@ -373,5 +373,64 @@ TEST(Prepare, TakesNormalsOfARoughMeshFromTheNeighbours) {
   EXPECT_GT(sum / static_cast<double>(prepared.surface.size()), 0.97);  // of the faces' own normals: less than .9
 }
 
+// That each surface and spin point of the paper's surface is the point of the file that its row says.
+void expect_rows(const Object& object, const std::vector<Vec3>& file, const std::vector<std::uint32_t>& rows) {
+  PrepareSettings settings = settings_of(SurfaceKind::vertices);
+  settings.spin_points = 50;
+  const PreparedObject prepared = prepare(object, settings, 1);
+  EXPECT_EQ(prepared.surface_rows, rows);
+  const auto is_at = [&](const OrientedPoints& points, std::size_t i, std::uint32_t row) {
+    return (points.position(i).cast<double>() / prepared.scale + prepared.centre - file[row]).norm() < 1e-6;
+  };
+  ASSERT_EQ(prepared.surface.size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    ASSERT_TRUE(is_at(prepared.surface, i, rows[i])) << i;
+  }
+  ASSERT_EQ(prepared.spin_rows.size(), 50U);
+  for (std::size_t k = 0; k < 50; ++k) {
+    ASSERT_TRUE(is_at(prepared.spin_points, k, prepared.spin_rows[k])) << k;
+  }
+}
+
+TEST(Prepare, TellsWhichPointsOfTheFileItTook) {
+  std::vector<Vec3> points = test::sphere_points(300);
+  points[10] = points[4];
+  points[20] = Vec3(40, 0, 0);
+  std::vector<std::uint32_t> rows;
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    if (i != 10 && i != 20) {
+      rows.push_back(i);
+    }
+  }
+  expect_rows(PointCloud{points, {}, {}}, points, rows);
+  expect_rows(Mesh{points, {}}, points, rows);  // without a face, as a cloud
+
+  Mesh box = test::box();
+  box.vertices.insert(box.vertices.begin(), Vec3(7, 7, 7));  // of no face
+  for (Triangle& triangle : box.triangles) {
+    for (std::uint32_t& corner : triangle) {
+      ++corner;
+    }
+  }
+  const auto first = static_cast<std::uint32_t>(box.vertices.size());
+  for (const Vec3& corner : {Vec3(90, 90, 90), Vec3(90.001, 90, 90), Vec3(90, 90.001, 90)}) {
+    box.vertices.push_back(corner);  // of a speck of dust
+  }
+  box.triangles.push_back({first, first + 1, first + 2});
+  rows.clear();
+  for (std::uint32_t i = 1; i < first; ++i) {
+    rows.push_back(i);
+  }
+  expect_rows(box, box.vertices, rows);
+}
+
+TEST(Prepare, TellsOfNoPointsWhereItDrewThem) {
+  for (const SurfaceKind surface : {SurfaceKind::samples, SurfaceKind::external}) {
+    const PreparedObject prepared = prepare(test::box(), settings_of(surface), 1);
+    EXPECT_TRUE(prepared.surface_rows.empty());
+    EXPECT_TRUE(prepared.spin_rows.empty());
+  }
+}
+
 }  // namespace
 }  // namespace spincat

@@ -129,7 +129,7 @@ TEST(ObjectJson, HasThePromisedKeys) {
   EXPECT_EQ(json["size"].dump(), "[1.0,2.0,3.0]");
   EXPECT_EQ(
       json["defects"].dump(),
-      R"({"repeated_points":0,"unused_vertices":5,"flat_triangles":0,"repeated_triangles":0,"flipped_triangles":0,"dust_triangles":0,"lone_points":0})");
+      R"({"unfinite_points":0,"repeated_points":0,"unused_vertices":5,"flat_triangles":0,"repeated_triangles":0,"flipped_triangles":0,"dust_triangles":0,"lone_points":0})");
   facts.is_mesh = false;
   EXPECT_EQ(parsed(object_json("a.off", facts))["kind"], "point cloud");
 }

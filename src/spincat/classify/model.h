@@ -31,7 +31,7 @@ class Model {
   std::uint32_t meshes() const;                             // of the training objects
   std::uint32_t clouds() const;
   const std::string& dataset() const;         // what it was trained on, as the user named it
-  const std::string& made_by() const;         // "spincat 0.1.0"
+  const std::string& made_by() const;         // "spincat 0.2.0"
   const std::filesystem::path& file() const;  // it was read from; empty for one that was trained here
   std::size_t feature_length() const;         // how many features an object gives
   std::size_t judge_count() const;            // n (n - 1) / 2

@@ -122,7 +122,7 @@ std::vector<std::uint32_t> dust_of(const Mesh& mesh) {
 }
 
 Mesh without_triangles(const Mesh& mesh, const std::vector<std::uint32_t>& triangles) {
-  Mesh rest{mesh.vertices, {}};
+  Mesh rest{mesh.vertices, {}, mesh.left_out};
   auto next = triangles.begin();
   for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
     if (next != triangles.end() && *next == f) {
@@ -131,7 +131,7 @@ Mesh without_triangles(const Mesh& mesh, const std::vector<std::uint32_t>& trian
       rest.triangles.push_back(mesh.triangles[f]);
     }
   }
-  return without_unused_vertices(rest);
+  return rest;
 }
 
 }  // namespace spincat

@@ -14,7 +14,7 @@ namespace spincat {
 // coordinates of moderate size (normalised).
 std::vector<std::uint32_t> dust_of(const Mesh& mesh);
 
-// The mesh without some of its triangles (indices ascending) and without the vertices that only they used.
+// The mesh without some of its triangles (indices ascending). Its vertices stay.
 Mesh without_triangles(const Mesh& mesh, const std::vector<std::uint32_t>& triangles);
 
 }  // namespace spincat

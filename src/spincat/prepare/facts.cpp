@@ -70,6 +70,7 @@ ObjectFacts facts_of(const Object& object) {
   const std::vector<Vec3>& points = mesh != nullptr ? mesh->vertices : std::get<PointCloud>(object).points;
   facts.is_mesh = mesh != nullptr;
   facts.points = points.size();
+  facts.unfinite_points = (mesh != nullptr ? mesh->left_out : std::get<PointCloud>(object).left_out).size();
   const std::vector<std::uint32_t> first = first_at_position(points);
   facts.repeated_points = count_repeated(first);
   if (mesh != nullptr) {

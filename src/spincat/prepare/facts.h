@@ -11,6 +11,7 @@ struct ObjectFacts {
   bool is_mesh = false;
   std::size_t points = 0;  // vertices of a mesh, points of a cloud
   std::size_t triangles = 0;
+  std::size_t unfinite_points = 0;     // of the file, left out by its reader
   std::size_t repeated_points = 0;     // at the position of an earlier one
   std::size_t unused_vertices = 0;     // that no triangle uses
   std::size_t flat_triangles = 0;      // without area

@@ -8,7 +8,9 @@
 
 #include "spincat/geometry/point_tree.h"
 #include "spincat/prepare/normalise.h"
+#include "spincat/prepare/quantile.h"
 #include "spincat/prepare/repeats.h"
+#include "spincat/prepare/selected.h"
 
 namespace spincat {
 namespace {
@@ -20,12 +22,6 @@ constexpr double kOfAroundZero = 1.5;      // where it lies at exactly (0, 0, 0)
 constexpr double kUsual = 0.95;            // of the points have at most the usual spacing
 constexpr std::size_t kFewestPoints = 64;  // fewer say nothing about their spacing
 constexpr std::size_t kMostOf = 10;        // at most one point in so many stands alone
-
-double quantile(std::vector<double> values, double share) {
-  const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::ranges::nth_element(values, values.begin() + place);
-  return values[static_cast<std::size_t>(place)];
-}
 
 // Brings most points to a size of about 1, wherever the others are: beside a point at 1e30 all others would be one.
 Similarity similarity_of_most(std::span<const Vec3> points) {
@@ -73,30 +69,11 @@ double spacing_around(const Spacing& spacing, std::size_t point) {
   return around[kNeighbours / 2];
 }
 
-PointCloud selected(const PointCloud& cloud, std::span<const std::uint32_t> points) {
-  PointCloud result;
-  result.sensor = cloud.sensor;
-  for (const std::uint32_t i : points) {
-    result.points.push_back(cloud.points[i]);
-    if (!cloud.normals.empty()) {
-      result.normals.push_back(cloud.normals[i]);
-    }
-  }
-  return result;
-}
-
 // The first point at each place; none where a sensor measured nothing.
 std::vector<std::uint32_t> distinct_points(std::span<const Vec3> points) {
   const std::vector<std::uint32_t> first = first_at_position(points);
-  const auto is_zero = [](const Vec3& p) { return p.isZero(0.0); };
-  const auto zeros = static_cast<std::size_t>(std::ranges::count_if(points, is_zero));
-  const bool measured_nothing = zeros > 1 && zeros < points.size();
-  std::vector<std::uint32_t> distinct;
-  for (std::uint32_t i = 0; i < first.size(); ++i) {
-    if (first[i] == i && !(measured_nothing && is_zero(points[i]))) {
-      distinct.push_back(i);
-    }
-  }
+  std::vector<std::uint32_t> distinct = measured_points(points);
+  std::erase_if(distinct, [&](std::uint32_t i) { return first[i] != i; });
   return distinct;
 }
 

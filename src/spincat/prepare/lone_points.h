@@ -20,7 +20,7 @@ std::vector<std::uint32_t> lone_points(std::span<const Vec3> points);
 
 // The cloud with each of its points once (the first of those at one place), and without those that stand alone. Where
 // several lie at exactly (0, 0, 0), a sensor measured nothing there, and they go, too, unless they are all there is.
-// Order, normals and sensor stay. Deterministic.
+// Order, normals and sensor stay; the points that go are added to those left out. Deterministic.
 PointCloud without_lone_points(const PointCloud& cloud);
 
 }  // namespace spincat

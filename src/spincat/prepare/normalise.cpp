@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "spincat/error.h"
+#include "spincat/geometry/left_out.h"
 
 namespace spincat {
 namespace {
@@ -62,13 +63,18 @@ Mesh without_unused_vertices(const Mesh& mesh) {
       place[v] = 0;
     }
   }
+  const std::vector<std::uint32_t> rows = rows_of_kept(place.size(), mesh.left_out);
   Mesh result;
+  result.left_out = mesh.left_out;
   for (std::size_t v = 0; v < place.size(); ++v) {
     if (place[v] != kUnused) {
       place[v] = static_cast<std::uint32_t>(result.vertices.size());
       result.vertices.push_back(mesh.vertices[v]);
+    } else {
+      result.left_out.push_back(rows[v]);
     }
   }
+  std::ranges::sort(result.left_out);
   result.triangles = mesh.triangles;
   for (Triangle& triangle : result.triangles) {
     for (std::uint32_t& v : triangle) {

@@ -20,7 +20,7 @@ struct Similarity {
 Similarity unit_similarity(std::span<const Vec3> points);
 
 // The mesh with only those vertices that triangles use, in their order: the others are no part of the object and must
-// not decide about its size.
+// not decide about its size. They are added to those left out.
 Mesh without_unused_vertices(const Mesh& mesh);
 
 // Moves and scales all vertices or points; normals keep their direction and the sensor moves along.

@@ -4,13 +4,16 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "spincat/geometry/left_out.h"
 #include "spincat/geometry/random.h"
 #include "spincat/prepare/cloud_points.h"
+#include "spincat/prepare/dense_cloud.h"
 #include "spincat/prepare/dust.h"
 #include "spincat/prepare/even_out.h"
 #include "spincat/prepare/external_surface.h"
@@ -38,16 +41,9 @@ constexpr double kRoughFold = 20.0;  // degrees
 // The surface found for an object, in a frame of moderate size, before the spin points are chosen.
 struct Surface {
   SurfacePoints points;
-  Similarity frame;  // from the file to that frame
+  Similarity frame;                 // from the file to that frame
+  std::vector<std::uint32_t> rows;  // which of the file's points SurfaceKind::vertices has taken
 };
-
-void shuffle_points(SurfacePoints& points, Random& random) {
-  for (std::size_t i = points.positions.size(); i > 1; --i) {
-    const std::size_t j = random.below(i);
-    std::swap(points.positions[i - 1], points.positions[j]);
-    std::swap(points.normals[i - 1], points.normals[j]);
-  }
-}
 
 bool is_rough(const Mesh& mesh) {
   return mesh.triangles.size() >= kFewestOfRough && median_fold(mesh) > kRoughFold;
@@ -71,15 +67,17 @@ SurfacePoints mesh_points(const Mesh& mesh, const PrepareSettings& settings, Ran
 }
 
 Surface cloud_surface(const PointCloud& given, const PrepareSettings& settings, Random& random) {
-  const PointCloud object = without_lone_points(given);
+  const bool takes_all = settings.surface == SurfaceKind::vertices;
+  const PointCloud object = without_lone_points(takes_all ? given : without_crowds(given));
   const Similarity similarity = unit_similarity(object.points);
-  return {cloud_points(transformed(object, similarity), settings, random), similarity};
+  return {cloud_points(transformed(object, similarity), settings, random), similarity,
+          rows_of_kept(object.points.size(), object.left_out)};
 }
 
 Surface mesh_surface(const Mesh& given, const PrepareSettings& settings, Random& random) {
   Mesh mesh = without_unused_vertices(given);
   if (all_at_one_place(mesh.vertices)) {
-    return cloud_surface({given.vertices, {}, {}}, settings, random);
+    return cloud_surface({given.vertices, {}, {}, given.left_out}, settings, random);
   }
   const Similarity similarity = unit_similarity(mesh.vertices);
   mesh = transformed(mesh, similarity);
@@ -87,9 +85,9 @@ Surface mesh_surface(const Mesh& given, const PrepareSettings& settings, Random&
     return mesh_surface(without_triangles(given, dust), settings, random);
   }
   if (!has_area(mesh)) {
-    return cloud_surface({given.vertices, {}, {}}, settings, random);
+    return cloud_surface({given.vertices, {}, {}, given.left_out}, settings, random);
   }
-  return {mesh_points(mesh, settings, random), similarity};
+  return {mesh_points(mesh, settings, random), similarity, rows_of_kept(mesh.vertices.size(), mesh.left_out)};
 }
 
 Surface find_surface(const Object& object, const PrepareSettings& settings, Random& random) {
@@ -107,21 +105,23 @@ OrientedPoints oriented(const SurfacePoints& points, const Similarity& similarit
   return result;
 }
 
-OrientedPoints choose_spin_points(const SurfacePoints& points, const Similarity& similarity,
-                                  const PrepareSettings& settings, Random& random) {
-  auto count = static_cast<std::size_t>(settings.spin_points);
-  SurfacePoints chosen = points;
-  if (settings.surface == SurfaceKind::vertices) {
-    shuffle_points(chosen, random);
-  } else {
-    count = std::min(count, points.positions.size());  // the draw is in random order already
+// Which of so many surface points are the spin points.
+std::vector<std::uint32_t> choose_spin_points(std::size_t points, const PrepareSettings& settings, Random& random) {
+  const auto count = static_cast<std::size_t>(settings.spin_points);
+  std::vector<std::uint32_t> order(points);
+  std::iota(order.begin(), order.end(), 0U);
+  if (settings.surface != SurfaceKind::vertices) {
+    order.resize(std::min(count, points));  // the draw is in random order already
+    return order;
   }
-  OrientedPoints result(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t i = k % chosen.positions.size();
-    result.set(k, similarity(chosen.positions[i]).cast<float>(), chosen.normals[i].cast<float>());
+  for (std::size_t i = points; i > 1; --i) {
+    std::swap(order[i - 1], order[random.below(i)]);
   }
-  return result;
+  order.resize(count);
+  for (std::size_t k = points; k < count; ++k) {
+    order[k] = order[k % points];
+  }
+  return order;
 }
 
 }  // namespace
@@ -134,7 +134,17 @@ PreparedObject prepare(const Object& object, const PrepareSettings& settings, st
   const Similarity similarity = unit_similarity(surface.points.positions);
   PreparedObject prepared;
   prepared.surface = oriented(surface.points, similarity);
-  prepared.spin_points = choose_spin_points(surface.points, similarity, settings, random);
+  const std::vector<std::uint32_t> chosen = choose_spin_points(prepared.surface.size(), settings, random);
+  prepared.spin_points = OrientedPoints(chosen.size());
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    prepared.spin_points.set(k, prepared.surface.position(chosen[k]), prepared.surface.normal(chosen[k]));
+  }
+  if (settings.surface == SurfaceKind::vertices) {
+    for (const std::uint32_t i : chosen) {
+      prepared.spin_rows.push_back(surface.rows[i]);
+    }
+    prepared.surface_rows = surface.rows;
+  }
   prepared.scale = surface.frame.factor * similarity.factor;
   prepared.centre = surface.frame.centre + similarity.centre / surface.frame.factor;
   return prepared;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "spincat/geometry/object.h"
 #include "spincat/geometry/oriented_points.h"
@@ -41,6 +42,10 @@ struct PrepareSettings {
 struct PreparedObject {
   OrientedPoints surface;      // normalised: centre of the bounding box at 0, furthest point at distance 1
   OrientedPoints spin_points;  // some of the surface's points, in random order
+  // Which of the file's points the surface points are, ascending, and which the spin points. Both are empty where
+  // points are drawn: with all kinds of surface but SurfaceKind::vertices.
+  std::vector<std::uint32_t> surface_rows;
+  std::vector<std::uint32_t> spin_rows;
   double scale = 1.0;          // prepared units in one unit of the file
   Vec3 centre = Vec3::Zero();  // where the prepared origin is in the file: x_file = x / scale + centre
 };

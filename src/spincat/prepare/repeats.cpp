@@ -20,6 +20,17 @@ std::vector<std::uint32_t> first_at_position(std::span<const Vec3> points) {
   return first;
 }
 
+std::vector<std::uint32_t> measured_points(std::span<const Vec3> points) {
+  const auto is_zero = [](const Vec3& p) { return p.isZero(0.0); };
+  const auto zeros = static_cast<std::size_t>(std::ranges::count_if(points, is_zero));
+  std::vector<std::uint32_t> measured(points.size());
+  std::iota(measured.begin(), measured.end(), 0U);
+  if (zeros > 1 && zeros < points.size()) {
+    std::erase_if(measured, [&](std::uint32_t i) { return is_zero(points[i]); });
+  }
+  return measured;
+}
+
 bool all_at_one_place(std::span<const Vec3> points) {
   return std::ranges::all_of(points, [&](const Vec3& p) { return p == points[0]; });
 }

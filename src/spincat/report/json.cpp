@@ -77,7 +77,8 @@ std::string object_json(const std::string& file, const ObjectFacts& facts) {
                {"area", facts.area},
                {"resolution", facts.resolution},
                {"defects",
-                {{"repeated_points", facts.repeated_points},
+                {{"unfinite_points", facts.unfinite_points},
+                 {"repeated_points", facts.repeated_points},
                  {"unused_vertices", facts.unused_vertices},
                  {"flat_triangles", facts.flat_triangles},
                  {"repeated_triangles", facts.repeated_triangles},
@@ -86,16 +87,16 @@ std::string object_json(const std::string& file, const ObjectFacts& facts) {
                  {"lone_points", facts.lone_points}}}});
 }
 
-std::string spin_json(const std::string& file, std::size_t spin_points, const SpinImageParams& params,
-                      const PreparedObject& object) {
-  const SpinImageShape shape = params.shape();
-  return line({{"file", file},
-               {"spin_points", spin_points},
-               {"surface_points", object.surface.size()},
-               {"channels", shape.channels},
-               {"rows", shape.rows},
-               {"columns", shape.columns},
-               {"bin_size", params.bin_size / object.scale}});
+std::string spin_json(const SpinResult& result) {
+  return line({{"file", result.file},
+               {"images", result.images},
+               {"spin_points", result.spin_points},
+               {"surface_points", result.surface_points},
+               {"left_out", result.left_out},
+               {"channels", result.shape.channels},
+               {"rows", result.shape.rows},
+               {"columns", result.shape.columns},
+               {"bin_size", result.bin_size}});
 }
 
 std::string features_json(const std::string& file, std::size_t objects, std::size_t features, const Settings& settings,

@@ -23,9 +23,19 @@ std::string error_json(const std::string& file, const std::string& error);
 // {"file", "kind": "mesh" or "point cloud", "points", "triangles", "size", "area", "resolution", "defects": {name: n}}
 std::string object_json(const std::string& file, const ObjectFacts& facts);
 
-// {"file", "spin_points", "surface_points", "channels", "rows", "columns", "bin_size": in the file's unit}
-std::string spin_json(const std::string& file, std::size_t spin_points, const SpinImageParams& params,
-                      const PreparedObject& object);
+// What the command spin wrote.
+struct SpinResult {
+  std::string file;
+  std::size_t images = 0;  // fewer than spin points on a contact sheet
+  std::size_t spin_points = 0;
+  std::size_t surface_points = 0;
+  std::size_t left_out = 0;  // points of the object's file
+  SpinImageShape shape;
+  double bin_size = 0.0;  // in the file's unit
+};
+
+// {"file", "images", "spin_points", "surface_points", "left_out", "channels", "rows", "columns", "bin_size"}
+std::string spin_json(const SpinResult& result);
 
 // What describe wrote.
 std::string features_json(const std::string& file, std::size_t objects, std::size_t features, const Settings& settings,

@@ -129,6 +129,7 @@ std::string object_text(const ObjectFacts& facts) {
       table.add({name, fmt::format("{}", count)});
     }
   };
+  defect(facts.is_mesh ? "vertices not finite" : "points not finite", facts.unfinite_points);
   defect(facts.is_mesh ? "repeated vertices" : "repeated points", facts.repeated_points);
   defect("unused vertices", facts.unused_vertices);
   defect("triangles without area", facts.flat_triangles);

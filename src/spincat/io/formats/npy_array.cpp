@@ -158,12 +158,13 @@ std::string NpyArray::shape_text() const {
 }
 
 std::uint64_t NpyArray::columns() const {
-  return shape_.size() < 2 ? 0 : shape_.back();
+  return shape_.size() < 2 ? 1 : shape_.back();
 }
 
 std::uint64_t NpyArray::rows() const {
-  std::uint64_t rows = shape_.size() < 2 ? 0 : 1;
-  for (std::size_t i = 0; i + 1 < shape_.size(); ++i) {
+  const std::size_t sides = shape_.size() < 2 ? shape_.size() : shape_.size() - 1;
+  std::uint64_t rows = 1;
+  for (std::size_t i = 0; i < sides; ++i) {
     rows *= shape_[i];
   }
   return rows;

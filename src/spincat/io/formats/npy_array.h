@@ -28,7 +28,7 @@ class NpyArray {
   // Whether its numbers are of one byte, as those of pictures are.
   bool is_bytes() const { return size_ == 1; }
 
-  // All but the last side, multiplied, and the last one: a table of rows. 0 where it has no two sides.
+  // All but the last side, multiplied, and the last one: a table of rows. An array with one side is a column.
   std::uint64_t rows() const;
   std::uint64_t columns() const;
   double at(std::uint64_t row, std::uint64_t column) const;

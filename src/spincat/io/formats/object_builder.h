@@ -97,7 +97,11 @@ class ObjectBuilder {
     if (point.allFinite()) {
       add_vertex(point);
     } else {
-      left_out_ = true;
+      const std::size_t row = mesh_.vertices.size() + left_out_.size();
+      if (row == kMostVertices) {
+        check_vertices(row + std::uint64_t{1});
+      }
+      left_out_.push_back(static_cast<std::uint32_t>(row));
     }
   }
   void add_point(const Vec3& point, const Vec3& normal) {
@@ -156,16 +160,18 @@ class ObjectBuilder {
         throw InputError(out_of_range(largest_index_, mesh_.vertices.size()));
       }
       drop_unfinite_vertices();
+      mesh_.left_out = std::move(left_out_);
       return std::move(mesh_);
     }
     drop_unfinite_points();
     if (mesh_.vertices.empty()) {
-      throw InputError(left_out_ ? "holds only points without finite coordinates" : "holds neither a face nor a point");
+      throw InputError(left_out_.empty() ? "holds neither a face nor a point"
+                                         : "holds only points without finite coordinates");
     }
     if (normals_.size() != mesh_.vertices.size()) {
       forget_normals();
     }
-    return PointCloud{std::move(mesh_.vertices), std::move(normals_), sensor_};
+    return PointCloud{std::move(mesh_.vertices), std::move(normals_), sensor_, std::move(left_out_)};
   }
 
  private:
@@ -193,6 +199,13 @@ class ObjectBuilder {
         corner -= dropped[corner];
       }
     }
+    leave_out_unfinite();
+  }
+
+  void leave_out_unfinite() {
+    for (const Unfinite& one : unfinite_) {
+      left_out_.push_back(one.vertex);
+    }
     std::erase_if(mesh_.vertices, [](const Vec3& vertex) { return !vertex.allFinite(); });
   }
 
@@ -209,7 +222,6 @@ class ObjectBuilder {
     if (unfinite_.empty()) {
       return;
     }
-    left_out_ = true;
     if (normals_.size() == mesh_.vertices.size()) {
       std::size_t next = 0;
       std::size_t kept = 0;
@@ -222,7 +234,7 @@ class ObjectBuilder {
       }
       normals_.resize(kept);
     }
-    std::erase_if(mesh_.vertices, [](const Vec3& vertex) { return !vertex.allFinite(); });
+    leave_out_unfinite();
   }
 
   static constexpr std::size_t kMostVertices = std::numeric_limits<std::uint32_t>::max();
@@ -232,7 +244,7 @@ class ObjectBuilder {
   std::vector<Vec3> normals_;
   std::vector<Unfinite> unfinite_;  // in the order of their vertices
   std::optional<Vec3> sensor_;
-  bool left_out_ = false;
+  std::vector<std::uint32_t> left_out_;  // by one of the two add_point()s or by finish(): no reader uses both
   std::size_t corners_ = 0;
   std::uint32_t first_ = 0;
   std::uint32_t previous_ = 0;

@@ -5,7 +5,7 @@ const result = data.result;
 const part = readPart('object-0');
 const viewer = new Viewer('none');
 const isMesh = result.kind === 'mesh';
-const defectNames = { repeated_points: 'repeated ' + (isMesh ? 'vertices' : 'points'), unused_vertices: 'vertices that no triangle uses',
+const defectNames = { unfinite_points: (isMesh ? 'vertices' : 'points') + ' that are not finite, left out', repeated_points: 'repeated ' + (isMesh ? 'vertices' : 'points'), unused_vertices: 'vertices that no triangle uses',
   flat_triangles: 'triangles without area', repeated_triangles: 'repeated triangles', flipped_triangles: 'flipped triangles',
   dust_triangles: 'triangles far from the object, left out', lone_points: 'points far from all others, left out' };
 const drawnDefects = Object.keys(part.defects).filter((key) => result.defects[key] > 0);
@@ -35,7 +35,7 @@ const facts = [['kind', result.kind], [isMesh ? 'vertices' : 'points', String(re
   ...(isMesh ? [['triangles', String(result.triangles)]] : []),
   ['size', result.size.map(number).join(' × ')],
   ...(isMesh ? [['area', number(result.area)]] : []), ['resolution', number(result.resolution)]];
-const defects = Object.entries(result.defects).filter(([key]) => isMesh ? key !== 'lone_points' : key === 'repeated_points' || key === 'lone_points');
+const defects = Object.entries(result.defects).filter(([key]) => isMesh ? key !== 'lone_points' : ['unfinite_points', 'repeated_points', 'lone_points'].includes(key));
 const found = defects.filter(([, count]) => count > 0);
 
 showPage(result.file,

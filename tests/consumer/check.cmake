@@ -1,5 +1,5 @@
 # Uses spincat as a stranger would: installs the built project into an empty prefix, builds the examples against it with
-# nothing but CMake's defaults, and runs them; then the same by pkg-config, from a shared object of the stranger's own,
+# nothing but CMake's defaults, and runs them, and compiles the pieces of its guide; then the same by pkg-config, from a shared object of the stranger's own,
 # and with the shared library. Called by ctest with
 #
 #   cmake -DSOURCE_DIR=... -DBINARY_DIR=... -DSCRATCH_DIR=... [-DCXX=...] -P check.cmake
@@ -64,6 +64,7 @@ endfunction()
 file(REMOVE_RECURSE ${SCRATCH_DIR})
 expect(0 ${CMAKE_COMMAND} --install ${BINARY_DIR} --prefix ${prefix})
 build_against(${prefix} tests/consumer/headers ${SCRATCH_DIR}/headers)
+build_against(${prefix} tests/consumer/guide ${SCRATCH_DIR}/guide -DGUIDE=${SOURCE_DIR}/docs/guide/library.md)
 foreach(example train_and_name spin_images depth_camera)
   build_against(${prefix} examples/${example} ${SCRATCH_DIR}/${example})
 endforeach()

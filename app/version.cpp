@@ -12,6 +12,7 @@
 #include "spincat/io/read_object.h"
 #include "spincat/report/text_table.h"
 #include "spincat/spin/kernel.h"
+#include "spincat/version.h"
 
 namespace spincat::app {
 namespace {
@@ -47,7 +48,7 @@ std::string version_text() {
   table.add({"Kinect", has_kinect() ? "yes" : "no"});
   table.add({"reads", fmt::format("{}{}", listed(object_extensions()), has_draco() ? ", Draco in glTF" : "")});
   table.add({"models", fmt::format("version {}", kModelVersion)});
-  std::string text = "spincat " SPINCAT_VERSION "\n" + table.str();
+  std::string text = std::string(kProgram) + "\n" + table.str();
   text.erase(text.find_last_not_of('\n') + 1);
   return text;
 }

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <pcl/features/impl/spin_image.hpp>
 #include <random>
 

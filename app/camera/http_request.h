@@ -1,6 +1,7 @@
 // What a browser asks for: the part of HTTP/1.1 that the live page needs.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>

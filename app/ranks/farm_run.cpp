@@ -11,6 +11,7 @@
 #include "spincat/parallel/placement.h"
 #include "spincat/parallel/task_farm.h"
 #include "spincat/settings/settings_json.h"
+#include "spincat/version.h"
 
 namespace spincat::app {
 
@@ -114,7 +115,7 @@ std::string identity_of(const Dataset& dataset) {
 }
 
 std::string settings_identity(const std::string& command, const Settings& settings, const std::string& more) {
-  return fmt::format("spincat {} {} {} {}", SPINCAT_VERSION, command, settings_to_json(settings).dump(), more);
+  return fmt::format("spincat {} {} {} {}", kVersion, command, settings_to_json(settings).dump(), more);
 }
 
 }  // namespace spincat::app

@@ -1,6 +1,7 @@
 // The vote on one object, and where on the object it comes from.
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>

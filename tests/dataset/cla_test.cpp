@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "dataset_lines.h"
 #include "spincat/dataset/listing.h"
 #include "support/expect_error.h"

@@ -62,7 +62,7 @@ TEST(TableRows, TakesNothingThatCannotBe) {
   TableRows rows(2, 2);
   for (const auto& [where, what] :
        {std::pair(2, object(0)), std::pair(0, object(0, 3, 1)), std::pair(0, object(0, 3, 3))}) {
-    test::expect_error<RunError>([&, where = where, &what = what] { put(rows, static_cast<std::size_t>(where), what); },
+    test::expect_error<RunError>([&, at = where, &item = what] { put(rows, static_cast<std::size_t>(at), item); },
                                  "an object came with another number of feature vectors");
   }
   EXPECT_EQ(rows.take({}).rows(), 0);

@@ -1,6 +1,7 @@
 // The mean image and the local features of bags of features.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 

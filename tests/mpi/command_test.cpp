@@ -3,6 +3,8 @@
 #include <sched.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <utility>
 
 #include "mpi/launching.h"
 #include "support/lasting_part.h"

@@ -1,4 +1,5 @@
 // Animals and people: ellipsoids and tubes on a skeleton. x is sideways, y forwards, z up.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 

@@ -1,4 +1,5 @@
 // Plates, bars, and the things that are made of them.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 

@@ -1,4 +1,5 @@
 // What drives, flies and swims: forwards is x, up is z.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 

@@ -77,9 +77,9 @@ Answer unpack_answer(std::string_view bytes, std::size_t categories) {
 }  // namespace
 
 Work make_classify_work(std::string_view context) {
-  const auto [limits, model_file] = unpack<ClassifyContext>(context);
+  const auto [read_limits, model_file] = unpack<ClassifyContext>(context);
   const auto model = std::make_shared<const Model>(read_model(std::filesystem::path(model_file)));
-  return throwing_problems([model, limits = limits](std::string_view file) {
+  return throwing_problems([model, limits = read_limits](std::string_view file) {
     return pack_answer(answer_for(*model, std::filesystem::path(file), limits));
   });
 }

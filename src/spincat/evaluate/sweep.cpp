@@ -12,6 +12,7 @@
 #include "spincat/evaluate/sweep_journal.h"
 #include "spincat/settings/setting_table.h"
 #include "spincat/settings/settings_json.h"
+#include "spincat/version.h"
 
 namespace spincat {
 namespace {
@@ -78,7 +79,7 @@ Json identity_of(const Dataset& dataset, const SettingChoices& settings, const s
     chosen[find_setting(one.name).name] = one.text;
   }
   return {{"sweep", 1},
-          {"version", "spincat " SPINCAT_VERSION},
+          {"version", kProgram},
           {"data set", list_checksum(dataset.objects, dataset.categories)},
           {"settings", settings_to_json(settings.base)},
           {"chosen", chosen},

@@ -9,6 +9,7 @@
 
 #include "spincat/error.h"
 #include "spincat/parallel/process_state.h"
+#include "spincat/version.h"
 
 namespace spincat::farm {
 
@@ -20,7 +21,7 @@ Greeting own_greeting() {
   struct stat processes = {};
   const bool known = ::stat("/proc/self/ns/pid", &processes) == 0;
   Greeting greeting;
-  greeting.program = "spincat " SPINCAT_VERSION;
+  greeting.program = kProgram;
   greeting.host = host.data();
   std::string boot;  // hosts may have the same name
   std::ifstream("/proc/sys/kernel/random/boot_id") >> boot;

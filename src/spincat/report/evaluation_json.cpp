@@ -6,6 +6,7 @@
 #include "spincat/report/json_parts.h"
 #include "spincat/report/report.h"
 #include "spincat/settings/settings_json.h"
+#include "spincat/version.h"
 
 namespace spincat {
 namespace {
@@ -76,7 +77,7 @@ Json confidence(const ConfidenceMeasure& measure) {
 // What is needed to repeat the run, beside the settings.
 Json run_of(const Evaluation& e, const EvaluateOptions& options, const std::vector<std::string>& command) {
   Json json = {{"command", command},
-               {"version", "spincat " SPINCAT_VERSION},
+               {"version", kProgram},
                {"protocol", protocol_name(e.protocol)},
                {"test_share", options.test_share},
                {"split_seeds", e.split_seeds},

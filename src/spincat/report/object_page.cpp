@@ -10,6 +10,7 @@
 #include "spincat/report/report.h"
 #include "spincat/report/shape_json.h"
 #include "spincat/settings/settings_json.h"
+#include "spincat/version.h"
 
 namespace spincat {
 namespace {
@@ -19,7 +20,7 @@ constexpr std::size_t kMostDefects = 20'000;  // triangles of one defect that ar
 constexpr std::size_t kShapeBytes = 72'000;   // of an object that has a page to itself
 
 Json run_json(const std::vector<std::string>& command) {
-  return {{"command", command}, {"version", "spincat " SPINCAT_VERSION}};
+  return {{"command", command}, {"version", kProgram}};
 }
 
 std::vector<std::string_view> scripts_with(std::string_view script) {

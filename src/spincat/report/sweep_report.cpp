@@ -11,6 +11,7 @@
 #include "spincat/report/text_table.h"
 #include "spincat/settings/setting_table.h"
 #include "spincat/settings/settings_json.h"
+#include "spincat/version.h"
 
 namespace spincat {
 namespace {
@@ -104,7 +105,7 @@ std::string sweep_json(const Sweep& sweep, const Settings& settings, const Evalu
                {"points", points},
                {"run",
                 {{"command", command},
-                 {"version", "spincat " SPINCAT_VERSION},
+                 {"version", kProgram},
                  {"protocol", options.leave_one_out ? "leave-one-out" : "splits"},
                  {"splits", options.splits},
                  {"test_share", options.test_share},

@@ -11,6 +11,7 @@
 #include "spincat/train/judge_trainer.h"
 #include "spincat/train/learned_space.h"
 #include "spincat/train/worth_broadcasting.h"
+#include "spincat/version.h"
 
 namespace spincat {
 
@@ -38,7 +39,7 @@ TrainResult train(const Dataset& dataset, const Settings& settings, const Execut
   model.categories = table.categories;
   model.kinds = table.kinds;
   model.dataset = dataset.name;
-  model.made_by = "spincat " SPINCAT_VERSION;
+  model.made_by = kProgram;
   model.object_counts = table.object_counts();
   StageSeconds seconds = table.seconds;
   seconds.judge += watch.lap();

@@ -2,6 +2,7 @@
 // holds mosd-dev/).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <map>

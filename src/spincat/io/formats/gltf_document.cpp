@@ -305,24 +305,42 @@ void take_extensions(json& document, GltfDocument& result) {
   erase_extensions(document);
 }
 
-// The only "files" that tinygltf ever gets to see.
-tinygltf::FsCallbacks callbacks_for(std::vector<std::string>& buffers) {
-  tinygltf::FsCallbacks callbacks = {};
+// The buffer that goes by this name, or null.
+std::string* buffer_at(const std::string& path, void* data) {
+  auto& all = *static_cast<std::vector<std::string>*>(data);
+  std::size_t number = all.size();
+  std::from_chars(path.data(), path.data() + path.size(), number);
+  return number < all.size() ? &all[number] : nullptr;
+}
+
+// Makes the buffers the only "files" that tinygltf ever gets to see. Newer ones than Debian 12's also ask for sizes, of
+// which they have a limit of their own, and read the disk when a single callback is missing.
+template <class Reader, class Callbacks>
+void let_see(Reader& reader, Callbacks callbacks, std::vector<std::string>& buffers) {
   callbacks.FileExists = [](const std::string&, void*) { return true; };
   callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
   callbacks.ReadWholeFile = [](std::vector<unsigned char>* out, std::string*, const std::string& path, void* data) {
-    auto& all = *static_cast<std::vector<std::string>*>(data);
-    std::size_t number = all.size();
-    std::from_chars(path.data(), path.data() + path.size(), number);
-    if (number >= all.size()) {
+    std::string* const buffer = buffer_at(path, data);
+    if (buffer == nullptr) {
       return false;
     }
-    out->assign(all[number].begin(), all[number].end());
-    std::string().swap(all[number]);
+    out->assign(buffer->begin(), buffer->end());
+    std::string().swap(*buffer);
     return true;
   };
+  callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+    return false;
+  };
+  if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
+    callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string& path, void* data) {
+      const std::string* const buffer = buffer_at(path, data);
+      *size = buffer == nullptr ? 0 : buffer->size();
+      return buffer != nullptr;
+    };
+    reader.SetMaxExternalFileSize(std::numeric_limits<std::size_t>::max());
+  }
   callbacks.user_data = &buffers;
-  return callbacks;
+  reader.SetFsCallbacks(callbacks);
 }
 
 // tinygltf's complaints come in several lines, and with bytes of the file in them.
@@ -341,7 +359,7 @@ tinygltf::Model read_model(json document, std::vector<std::string> buffers) {
     throw InputError("holds more than 4 GB of JSON");
   }
   tinygltf::TinyGLTF reader;
-  reader.SetFsCallbacks(callbacks_for(buffers));
+  let_see(reader, tinygltf::FsCallbacks{}, buffers);
   reader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
                            void*) { return true; },
                         nullptr);

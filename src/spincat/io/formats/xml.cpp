@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -108,13 +109,12 @@ struct XmlParser::State {
   static void begin(void* self, const char* name, const char** attributes) {
     auto* state = static_cast<State*>(self);
     const auto [space, local] = space_and_name(name);
-    state->guarded(
-        [&, space = space, local = local] { state->handler.begin(space, local, XmlAttributes(attributes)); });
+    state->guarded([&, in = space, tag = local] { state->handler.begin(in, tag, XmlAttributes(attributes)); });
   }
   static void end(void* self, const char* name) {
     auto* state = static_cast<State*>(self);
     const auto [space, local] = space_and_name(name);
-    state->guarded([&, space = space, local = local] { state->handler.end(space, local); });
+    state->guarded([&, in = space, tag = local] { state->handler.end(in, tag); });
   }
   // Nothing that is read here has definitions of its own, which may be made to grow.
   static void types(void* self, const char*, const char*, const char*, int) {

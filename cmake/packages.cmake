@@ -10,7 +10,12 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package says its own
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ
                                                 WORLD_EXECUTE)
 set(CPACK_PACKAGE_VENDOR "the spincat authors")
-set(SPINCAT_MAINTAINER "the spincat authors <spincat@localhost>" CACHE STRING "Who answers for the Debian packages")
+# As Debian's own tools have it: DEBFULLNAME and DEBEMAIL.
+set(maintainer "the spincat authors <spincat@localhost>")
+if(DEFINED ENV{DEBEMAIL} AND DEFINED ENV{DEBFULLNAME})
+  set(maintainer "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
+endif()
+set(SPINCAT_MAINTAINER ${maintainer} CACHE STRING "Who answers for the Debian packages")
 set(CPACK_PACKAGE_CONTACT ${SPINCAT_MAINTAINER})
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)

@@ -330,7 +330,7 @@ Command add_spin(CLI::App& parent) {
       "Example:\n"
       "  spincat spin scan.ply -o images.npy --points-output points.npy\n"
       "  spincat spin chair.obj -o sheet.png --surface samples --bin-size 0.1rel\n"
-      "  spincat spin scan.pcd -o images.npy --convention pcl --radius 0.05 --keypoints k.npy\n"
+      "  spincat spin scan.pcd -o i.npy --convention pcl --radius 2 --keypoints k.npy\n"
       "Without --spin-points and --keypoints there is an image at every surface point, in the order of the file's "
       "points that are "
       "used.");

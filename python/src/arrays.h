@@ -21,6 +21,11 @@ class Matrix {
 
   std::size_t rows() const { return rows_; }
   bool is_single() const { return single_; }
+  // Whether its numbers are single floats, row behind row, without gaps; then where they begin, at any address.
+  bool is_packed() const {
+    return single_ && column_stride_ == sizeof(float) && row_stride_ == array_.shape(1) * column_stride_;
+  }
+  const char* bytes() const { return data_; }
   // Three numbers of a row, from `first_column` on.
   Vec3 vector(std::size_t row, std::size_t first_column = 0) const {
     const char* const place = data_ + static_cast<pybind11::ssize_t>(row) * row_stride_ +

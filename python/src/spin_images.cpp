@@ -1,8 +1,10 @@
 // Spin images of points in arrays, written straight into the array that Python gets.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -19,6 +21,7 @@ namespace py = pybind11;
 namespace spincat::python {
 namespace {
 
+constexpr double kUnitTolerance = 2e-5;                   // of the square of a normal's length, and it counts as 1
 constexpr std::size_t kLotBytes = std::size_t{16} << 20;  // of images, between which progress is told
 
 // Points that single precision can hold, and how they came there.
@@ -54,8 +57,7 @@ class Frame {
 
 // The normal with length 1; as it is where it has that already. None where it has no direction.
 std::optional<Eigen::Vector3f> unit_normal(const Vec3& normal) {
-  constexpr double kTolerance = 2e-5;  // of its square
-  if (std::abs(normal.squaredNorm() - 1.0) <= kTolerance) {
+  if (std::abs(normal.squaredNorm() - 1.0) <= kUnitTolerance) {
     return normal.cast<float>();
   }
   const double length = normal.stableNorm();
@@ -80,9 +82,32 @@ OrientedPoints first_points(const OrientedPoints& points, std::size_t count) {
   return first;
 }
 
+// The rows of two packed arrays of three columns, as they are. False where one of them is not finite or has a normal of
+// another length than 1: then not all are written.
+bool copy_rows(const Matrix& positions, const Matrix& normals, OrientedPoints& points) {
+  for (std::size_t i = 0; i < positions.rows(); ++i) {
+    std::array<float, 3> p{};
+    std::array<float, 3> n{};
+    std::memcpy(p.data(), positions.bytes() + i * sizeof p, sizeof p);
+    std::memcpy(n.data(), normals.bytes() + i * sizeof n, sizeof n);
+    const double length = Vec3(n[0], n[1], n[2]).squaredNorm();
+    const float nothing = (p[0] - p[0]) + (p[1] - p[1]) + (p[2] - p[2]);  // NaN where one is not finite
+    if (!(std::abs(length - 1.0) <= kUnitTolerance && nothing == 0.0F)) {
+      return false;
+    }
+    points.set(i, {p[0], p[1], p[2]}, {n[0], n[1], n[2]});
+  }
+  return true;
+}
+
 Kept oriented(const Matrix& positions, const Matrix& normals, std::size_t normal_column, const Frame& frame) {
   OrientedPoints found(positions.rows());
   Kept kept;
+  // What most people bring, in a fifth of the time. The frame of single floats is their own.
+  if (normal_column == 0 && positions.is_packed() && normals.is_packed() && copy_rows(positions, normals, found)) {
+    kept.points = std::move(found);
+    return kept;
+  }
   std::size_t count = 0;
   for (std::size_t i = 0; i < positions.rows(); ++i) {
     const Eigen::Vector3f position = frame(positions.vector(i));

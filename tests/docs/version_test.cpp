@@ -24,6 +24,11 @@ TEST(Version, IsTheSameEverywhere) {
   EXPECT_EQ(found_in("CITATION.cff", R"(\nversion: (\S+))"), version);
   EXPECT_EQ(found_in("CHANGELOG.md", R"(\n## (\d\S*) - )"), version);
   EXPECT_EQ(found_in("CHANGELOG.md", R"(\n## \d\S* - (\S+))"), found_in("CITATION.cff", R"(\ndate-released: (\S+))"));
+  const std::string minor = version.substr(0, version.rfind('.'));
+  for (const char* example : {"train_and_name", "spin_images", "depth_camera"}) {
+    const std::string file = "examples/" + std::string(example) + "/CMakeLists.txt";
+    EXPECT_EQ(found_in(file, R"(find_package\(spincat (\S+) )"), minor) << file;
+  }
   for (const char* page : {"README.md", "docs/start.md", "docs/guide/train.md"}) {
     EXPECT_EQ(found_in(page, R"(made by +spincat (\S+))"), version) << page;
   }

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace spincat {
 namespace {
@@ -14,16 +16,36 @@ struct ModelDeleter {
   void operator()(svm_model* model) const { svm_free_and_destroy_model(&model); }
 };
 
+// The nodes of a thread's problems, one after the other: memory that the system clears anew for each problem of some
+// thousand rows would take longer than its solution.
+class NodeMemory {
+ public:
+  svm_node* room_for(std::size_t count) {
+    if (count > size_) {
+      nodes_.reset();  // before the larger one is taken
+      size_ = 0;
+      nodes_ = std::make_unique_for_overwrite<svm_node[]>(count);
+      size_ = count;
+    }
+    return nodes_.get();
+  }
+
+ private:
+  std::unique_ptr<svm_node[]> nodes_;
+  std::size_t size_ = 0;
+};
+
 // A Gram matrix in libsvm's layout: for each object a node with its serial number (1, 2, ...), then one node for each
-// kernel value.
+// kernel value. Only one at a time lives in a thread.
 class PrecomputedKernel {
  public:
   explicit PrecomputedKernel(const Eigen::MatrixXf& gram) {
+    thread_local NodeMemory memory;
     const auto n = static_cast<std::size_t>(gram.rows());
-    nodes_.resize(n * (n + 2));
+    svm_node* const nodes = memory.room_for(n * (n + 2));
     objects_.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
-      svm_node* node = objects_[i] = nodes_.data() + i * (n + 2);
+      svm_node* node = objects_[i] = nodes + i * (n + 2);
       *node++ = {0, static_cast<double>(i + 1)};
       for (std::size_t j = 0; j < n; ++j) {
         const auto row = static_cast<Eigen::Index>(j);
@@ -37,7 +59,6 @@ class PrecomputedKernel {
   svm_node** objects() { return objects_.data(); }
 
  private:
-  std::vector<svm_node> nodes_;
   std::vector<svm_node*> objects_;
 };
 

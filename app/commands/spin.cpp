@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -77,8 +78,11 @@ Settings spin_settings(const SpinArguments& arguments) {
 struct SpinObject {
   PreparedObject object;
   SpinImageParams params;
-  SpinPoints spin_points;
+  std::optional<SpinPoints> chosen;  // none: every surface point
   std::size_t points_in_file = 0;
+
+  const OrientedPoints& spin_points() const { return chosen ? chosen->points : object.surface; }
+  const std::vector<std::uint32_t>& spin_rows() const { return chosen ? chosen->rows : object.surface_rows; }
 
   // How many of the file's points take no part; none where points are drawn.
   std::size_t left_out() const { return object.surface_rows.empty() ? 0 : points_in_file - object.surface_rows.size(); }
@@ -101,7 +105,7 @@ std::string_view as_bytes(std::span<const float> values) {
 // Position (in the file's unit) and normal of each spin point, K x 6.
 void write_points(const fs::path& file, const SpinObject& spin) {
   const PreparedObject& object = spin.object;
-  const OrientedPoints& points = spin.spin_points.points;
+  const OrientedPoints& points = spin.spin_points();
   OutputFile out(file);
   out.write(npy_header(std::array<std::size_t, 2>{points.size(), 6}));
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -172,14 +176,12 @@ SpinObject prepared_object(const SpinArguments& arguments, const Settings& setti
   auto [prepared, params] = naming_file(arguments.file, [&] { return prepare_object(object, settings); });
   spin.params = params;
   if (!arguments.keypoints.empty()) {
-    spin.spin_points = read_keypoints(arguments.keypoints, prepared, spin.points_in_file);
+    spin.chosen = read_keypoints(arguments.keypoints, prepared, spin.points_in_file);
   } else if (arguments.settings.asks_for("spin_points")) {
-    spin.spin_points = {prepared.spin_points, prepared.spin_rows};
-  } else {
-    spin.spin_points = {prepared.surface, prepared.surface_rows};
+    spin.chosen = SpinPoints{std::move(prepared.spin_points), std::move(prepared.spin_rows)};
   }
   spin.object = std::move(prepared);
-  if (!arguments.index_output.empty() && spin.spin_points.rows.empty()) {
+  if (!arguments.index_output.empty() && spin.spin_rows().empty()) {
     throw InputError("--index-output", "the spin points are no points of the file: they are drawn, or your own");
   }
   return spin;
@@ -241,7 +243,7 @@ RunIdentity spin_identity(const SpinArguments& arguments, const Settings& settin
 
 void print_result(const SpinArguments& arguments, const SpinObject& spin, std::size_t images) {
   const SpinImageShape shape = spin.params.shape();
-  const std::size_t all = spin.spin_points.points.size();
+  const std::size_t all = spin.spin_points().size();
   if (arguments.run.json) {
     fmt::print("{}\n", spin_json({.file = arguments.output.string(),
                                   .images = images,
@@ -265,7 +267,7 @@ int run_spin(const SpinArguments& arguments, TaskFarm& farm) {
   check_arguments(arguments);
   FarmRun run(farm, arguments.run);
   const SpinObject spin = prepared_object(arguments, settings);
-  const OrientedPoints& spin_points = spin.spin_points.points;
+  const OrientedPoints& spin_points = spin.spin_points();
   const DenseObject dense{spin.object.surface, spin_points, spin.params};
   std::size_t images = spin_points.size();
   {
@@ -282,7 +284,7 @@ int run_spin(const SpinArguments& arguments, TaskFarm& farm) {
     write_points(arguments.points_output, spin);
   }
   if (!arguments.index_output.empty()) {
-    write_index(arguments.index_output, spin.spin_points.rows);
+    write_index(arguments.index_output, spin.spin_rows());
   }
   run.finish();
   if (arguments.output != "/dev/stdout") {  // the result went there; nothing must follow it
@@ -292,27 +294,19 @@ int run_spin(const SpinArguments& arguments, TaskFarm& farm) {
 }
 
 void add_files(CLI::App& command, SpinArguments& arguments) {
-  command.add_option("file", arguments.file, "An object")->type_name("FILE")->required();
-  command.add_option("-o,--output", arguments.output, "A .npy file (K x rows x columns) or a .png contact sheet")
-      ->type_name("FILE")
-      ->required();
-  command
-      .add_option("--points-output", arguments.points_output,
-                  "A .npy file for the spin points: K x 6, positions in the file's unit and normals")
-      ->type_name("FILE");
-  command
-      .add_option("--index-output", arguments.index_output,
-                  "A .npy file for which points of the file they are (0: the first)")
-      ->type_name("FILE");
-  command
-      .add_option("--keypoints", arguments.keypoints,
-                  "A .npy file of the points to make images of: indices of the file's points, or points of your own, "
-                  "K x 6, with the axes of their images")
-      ->type_name("FILE");
-  command
-      .add_option("--normals", arguments.normals,
-                  "A .npy file of normals, N x 3, one for each point (or vertex) of the file")
-      ->type_name("FILE");
+  const auto add = [&](const char* name, fs::path& file, const char* help) {
+    return command.add_option(name, file, help)->type_name("FILE");
+  };
+  add("file", arguments.file, "An object")->required();
+  add("-o,--output", arguments.output, "A .npy file (K x rows x columns) or a .png contact sheet")->required();
+  add("--points-output", arguments.points_output,
+      "A .npy file for the spin points: K x 6, positions in the file's unit and normals");
+  add("--index-output", arguments.index_output, "A .npy file for which points of the file they are (0: the first)");
+  add("--keypoints", arguments.keypoints,
+      "A .npy file of the points to make images of: indices of the file's points, or points of your own, K x 6, with "
+      "the "
+      "axes of their images");
+  add("--normals", arguments.normals, "A .npy file of normals, N x 3, one for each point (or vertex) of the file");
   command
       .add_option("--radius", arguments.radius,
                   "Instead of a bin size: how far images reach, in the file's unit; with --convention pcl PCL's search "

@@ -67,8 +67,8 @@ SurfacePoints mesh_points(const Mesh& mesh, const PrepareSettings& settings, Ran
 }
 
 Surface cloud_surface(const PointCloud& given, const PrepareSettings& settings, Random& random) {
-  const bool takes_all = settings.surface == SurfaceKind::vertices;
-  const PointCloud object = without_lone_points(takes_all ? given : without_crowds(given));
+  const bool is_thinned = settings.surface != SurfaceKind::vertices && given.points.size() > kDense;
+  const PointCloud object = is_thinned ? without_lone_points(without_crowds(given)) : without_lone_points(given);
   const Similarity similarity = unit_similarity(object.points);
   return {cloud_points(transformed(object, similarity), settings, random), similarity,
           rows_of_kept(object.points.size(), object.left_out)};

@@ -174,12 +174,16 @@ TEST(TrainingSet, TellsMarginsWithoutFolding) {
   }
 }
 
+// Linear judges then learn from the rows: the same but for the price of the bias.
 TEST(TrainingSet, NeedsNoSharedGramMatrix) {
   const ThreeClouds clouds;
   const JudgeList shared = clouds.judges(clouds.gram);
   const JudgeList own = clouds.judges({});
-  EXPECT_LT((shared.weights - own.weights).cwiseAbs().maxCoeff(), 0.01F * shared.weights.cwiseAbs().maxCoeff());
-  EXPECT_LT((shared.bias - own.bias).cwiseAbs().maxCoeff(), 0.01F);
+  for (Eigen::Index l = 0; l < shared.weights.rows(); ++l) {
+    const float cosine = shared.weights.row(l).normalized().dot(own.weights.row(l).normalized());
+    EXPECT_GT(cosine, 0.95F);
+    EXPECT_NEAR(shared.bias[l], own.bias[l], 0.2F);
+  }
 }
 
 TEST(TrainingSet, IsRepeatable) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "spincat/judge/linear_svm.h"
 #include "spincat/judge/pairwise_svm.h"
 
 namespace spincat {
@@ -40,8 +41,10 @@ Judge TrainingSet::train(CategoryPair pair, const JudgeSettings& settings) const
   std::vector<std::uint32_t> rows = rows_of_[pair.a];
   rows.insert(rows.end(), rows_of_[pair.b].begin(), rows_of_[pair.b].end());
   const auto first_count = static_cast<std::uint32_t>(rows_of_[pair.a].size());
-  const PairwiseSvm svm = train_pairwise_svm(kernel_matrix(kernel_, features_, shared_gram_, rows), first_count,
-                                             price(pair.a), price(pair.b));
+  const PairwiseSvm svm = is_trained_on_rows()
+                              ? train_linear_svm(features_(rows, Eigen::all), first_count, price(pair.a), price(pair.b))
+                              : train_pairwise_svm(kernel_matrix(kernel_, features_, shared_gram_, rows), first_count,
+                                                   price(pair.a), price(pair.b));
   Judge judge{{}, svm.coefficient, static_cast<float>(svm.bias)};
   for (const std::uint32_t object : svm.object) {
     judge.rows.push_back(rows[object]);

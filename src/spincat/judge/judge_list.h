@@ -46,8 +46,9 @@ struct JudgeList;
 class TrainingSet {
  public:
   // Those rows of `features` that `rows` lists; `labels` has the category of each row of features. `kernel` is fitted
-  // to these rows, and `shared_gram` is that of all features for its kind, or empty: then every pair computes its own
-  // part. What is passed by reference must outlive this object.
+  // to these rows, and `shared_gram` is that of all features for its kind, or empty: then linear judges learn from the
+  // rows themselves (linear_svm.h), and with another kernel every pair computes its own part. What is passed by
+  // reference must outlive this object.
   TrainingSet(const FeatureMatrix& features, const GramMatrices& shared_gram, Kernel kernel,
               std::span<const std::uint32_t> labels, std::span<const std::uint32_t> rows, std::uint32_t categories);
 
@@ -73,6 +74,7 @@ class TrainingSet {
   FeatureMatrix margins(std::span<const Judge> judges, std::span<const std::uint32_t> rows) const;
 
  private:
+  bool is_trained_on_rows() const { return kernel_.kind == KernelKind::linear && shared_gram_.empty(); }
   JudgeList list_with_supports(std::span<const Judge> judges) const;
   FeatureMatrix margins_of_folded(std::span<const Judge> judges, std::span<const std::uint32_t> rows) const;
 

@@ -8,15 +8,15 @@
 
 #include "spincat/geometry/evenly_spread.h"
 #include "spincat/judge/fixed_product.h"
-#include "spincat/judge/pairwise_svm.h"
+#include "spincat/judge/linear_svm.h"
 
 namespace spincat {
 namespace {
 
 constexpr double kC = 50.0;
-constexpr std::size_t kMostRows = 1500;  // of either side: their square is worked with
-constexpr double kTurnedAway = 0.03;     // of the known objects
-constexpr double kAsLike = 0.9;          // quantile
+constexpr std::size_t kMostCompared = 1500;  // of the known rows: their square is worked with
+constexpr double kTurnedAway = 0.03;         // of the known objects
+constexpr double kAsLike = 0.9;              // quantile
 constexpr std::size_t kFewestMargins = 10;
 
 // For each row how like it is the nearest of another object of its category; rows that have none are left out.
@@ -59,8 +59,8 @@ float KnownJudge::margin(std::span<const float> seen) const {
 
 std::vector<std::uint32_t> unlike_known(const FeatureMatrix& seen, std::span<const std::uint32_t> known,
                                         std::span<const RowOrigin> origins, std::span<const std::uint32_t> background) {
-  const FeatureMatrix rows = seen(evenly_spread(known, kMostRows), Eigen::all);
-  std::vector<float> within = likeness_within(rows, evenly_spread(origins, kMostRows));
+  const FeatureMatrix rows = seen(evenly_spread(known, kMostCompared), Eigen::all);
+  std::vector<float> within = likeness_within(rows, evenly_spread(origins, kMostCompared));
   if (within.empty()) {
     return {background.begin(), background.end()};
   }
@@ -78,16 +78,14 @@ std::vector<std::uint32_t> unlike_known(const FeatureMatrix& seen, std::span<con
 
 KnownJudge train_known_judge(const FeatureMatrix& seen, std::span<const std::uint32_t> known,
                              std::span<const std::uint32_t> background) {
-  std::vector<std::uint32_t> rows = evenly_spread(known, kMostRows);
-  const std::vector<std::uint32_t> others = evenly_spread(background, kMostRows);
+  std::vector<std::uint32_t> rows(known.begin(), known.end());
   const auto first_count = static_cast<std::uint32_t>(rows.size());
-  rows.insert(rows.end(), others.begin(), others.end());
+  rows.insert(rows.end(), background.begin(), background.end());
   const auto price = [&](std::size_t count) {
     return kC * static_cast<double>(rows.size()) / (2.0 * static_cast<double>(count));
   };
   const FeatureMatrix features = seen(rows, Eigen::all);
-  const PairwiseSvm svm =
-      train_pairwise_svm(gram_matrix(features, 1), first_count, price(first_count), price(others.size()));
+  const PairwiseSvm svm = train_linear_svm(features, first_count, price(known.size()), price(background.size()));
   Eigen::RowVectorXd weights = Eigen::RowVectorXd::Zero(seen.cols());
   for (std::size_t s = 0; s < svm.object.size(); ++s) {
     weights += svm.coefficient[s] * features.row(svm.object[s]).cast<double>();

@@ -42,8 +42,7 @@ struct RowOrigin {
 std::vector<std::uint32_t> unlike_known(const FeatureMatrix& seen, std::span<const std::uint32_t> known,
                                         std::span<const RowOrigin> origins, std::span<const std::uint32_t> background);
 
-// C = 50, each side's price by its share of the rows. Of many rows evenly spread ones are trained on. Deterministic.
-// Preconditions: a row on either side.
+// C = 50, each side's price by its share of the rows. Deterministic. Precondition: a row on either side.
 KnownJudge train_known_judge(const FeatureMatrix& seen, std::span<const std::uint32_t> known,
                              std::span<const std::uint32_t> background);
 

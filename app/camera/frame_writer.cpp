@@ -2,17 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "spincat/camera/segment/table.h"
 #include "spincat/camera/source/calibration.h"
 #include "spincat/camera/source/depth_png.h"
 #include "spincat/error.h"
 #include "spincat/files/file.h"
 #include "spincat/files/system_error_text.h"
 #include "spincat/geometry/start_thread.h"
+#include "spincat/io/write_object.h"
 
 namespace spincat::app {
 namespace {
@@ -36,6 +41,35 @@ void make_empty_folder(const fs::path& folder) {
   if (!is_empty) {
     throw InputError(folder.string(), "is not empty");
   }
+}
+
+bool is_over(const std::vector<Eigen::Vector3f>& outline, const SupportPlane& table, const Eigen::Vector3f& point) {
+  for (std::size_t k = 0; k < outline.size(); ++k) {
+    const Eigen::Vector3f edge = outline[(k + 1) % outline.size()] - outline[k];
+    if (edge.cross(Eigen::Vector3f(point - outline[k])).dot(table.normal) < 0.0F) {
+      return false;
+    }
+  }
+  return !outline.empty();
+}
+
+// The readings of each object, by its number in the segmentation, and under 0 those of the table.
+std::vector<PointCloud> clouds_of(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table,
+                                  const Segmentation& segmentation) {
+  std::vector<PointCloud> clouds(segmentation.objects.size() + 1);
+  for (int v = 0; v < image.height; ++v) {
+    for (int u = 0; u < image.width; ++u) {
+      const float z = image.at(u, v);
+      const Eigen::Vector3f p = intrinsics.point(u, v, z);
+      const std::uint16_t id = segmentation.ids[image.index(u, v)];
+      const bool is_on_table =
+          std::abs(table.height(p)) < plane_tolerance(z) && is_over(segmentation.outline, table, p);
+      if (z > 0.0F && (id != 0 || is_on_table)) {
+        clouds[id].points.push_back(p.cast<double>());
+      }
+    }
+  }
+  return clouds;
 }
 
 }  // namespace
@@ -154,6 +188,31 @@ void MaskWriter::add(std::size_t number, const SeenFrame& frame, int width, int 
   const fs::path file = folder_ / fmt::format("{:06}.png", number);
   const bool is_taken = writer_.add(
       [file, ids = std::move(ids), width, height] { write_file_atomically(file, encode_png16(ids, width, height)); });
+  left_out_ += is_taken ? 0 : 1;
+}
+
+CloudWriter::CloudWriter(const fs::path& folder, WriterThread& writer) : folder_(folder), writer_(writer) {
+  make_empty_folder(folder);
+}
+
+void CloudWriter::add(std::size_t number, const SeenFrame& frame, const DepthImage& image,
+                      const Intrinsics& intrinsics) {
+  if (!frame.table || frame.segmentation.ids.empty()) {
+    return;
+  }
+  std::vector<std::string> names = {"table"};
+  for (const SeenObject& object : frame.objects) {
+    names.push_back(std::to_string(object.id));
+  }
+  const bool is_taken = writer_.add([folder = folder_, number, image, intrinsics, table = *frame.table,
+                                     segmentation = frame.segmentation, names = std::move(names)] {
+    const std::vector<PointCloud> clouds = clouds_of(image, intrinsics, table, segmentation);
+    for (std::size_t k = 0; k < clouds.size(); ++k) {
+      if (!clouds[k].points.empty()) {
+        write_object(folder / fmt::format("{:06}-{}.ply", number, names[k]), clouds[k]);
+      }
+    }
+  });
   left_out_ += is_taken ? 0 : 1;
 }
 

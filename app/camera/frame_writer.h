@@ -83,4 +83,21 @@ class MaskWriter {
   std::size_t left_out_ = 0;
 };
 
+// For each frame the points of each object and of the table as PLY files, in metres in the camera's frame:
+// FRAME-ID.ply, FRAME-table.ply.
+class CloudWriter {
+ public:
+  // As FrameRecorder.
+  CloudWriter(const std::filesystem::path& folder, WriterThread& writer);
+
+  // `number`: of the frame, which names the files.
+  void add(std::size_t number, const SeenFrame& frame, const DepthImage& image, const Intrinsics& intrinsics);
+  std::size_t left_out() const { return left_out_; }
+
+ private:
+  std::filesystem::path folder_;
+  WriterThread& writer_;
+  std::size_t left_out_ = 0;
+};
+
 }  // namespace spincat::app

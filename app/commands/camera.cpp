@@ -34,6 +34,7 @@ struct CameraArguments {
   fs::path model;
   std::string source;
   std::string split = "none";
+  std::string scene = "auto";
   std::size_t every = 1;
   bool real_time = false;
   FrameSettings frames;
@@ -41,6 +42,7 @@ struct CameraArguments {
   std::optional<double> reject;
   fs::path record;
   fs::path masks;
+  fs::path clouds;
   std::optional<std::string> view;
   RunOptions run;
 };
@@ -64,6 +66,9 @@ Eigen::Vector3f parse_direction(const std::string& text) {
 RecogniserSettings recogniser_settings(const CameraArguments& a) {
   RecogniserSettings settings;
   settings.segment.split = a.split == "concave" ? SegmentSplit::concave : SegmentSplit::none;
+  settings.table.scene = a.scene == "table"   ? SceneKind::table
+                         : a.scene == "floor" ? SceneKind::floor
+                                              : SceneKind::automatic;
   settings.reject = a.reject;
   if (a.up) {
     settings.table.up = parse_direction(*a.up);
@@ -115,7 +120,7 @@ class CameraRun {
         message(note);
       }
     }
-    if (!arguments.record.empty() || !arguments.masks.empty()) {
+    if (!arguments.record.empty() || !arguments.masks.empty() || !arguments.clouds.empty()) {
       writer_.emplace(!arguments.real_time);
     }
     if (!arguments.record.empty()) {
@@ -123,6 +128,9 @@ class CameraRun {
     }
     if (!arguments.masks.empty()) {
       masks_.emplace(arguments.masks, *writer_);
+    }
+    if (!arguments.clouds.empty()) {
+      clouds_.emplace(arguments.clouds, *writer_);
     }
     if (arguments.view) {
       view_.emplace(ViewPlace::parse(*arguments.view), state_, model.categories());
@@ -181,6 +189,9 @@ class CameraRun {
     if (masks_) {
       masks_->add(fed.number, seen, fed.frame.image.width, fed.frame.image.height);
     }
+    if (clouds_) {
+      clouds_->add(fed.number, seen, fed.frame.image, fed.frame.intrinsics);
+    }
     if (view_ || painter_) {
       state_.show(std::make_shared<const ShownFrame>(
           ShownFrame{facts, std::move(fed.frame.image), std::move(seen), rate_.count()}));
@@ -216,6 +227,9 @@ class CameraRun {
     if (masks_ && masks_->left_out() > 0) {
       message(fmt::format("{} frames came too fast for their masks to be written", masks_->left_out()));
     }
+    if (clouds_ && clouds_->left_out() > 0) {
+      message(fmt::format("{} frames came too fast for their clouds to be written", clouds_->left_out()));
+    }
     summary_.gave_up = feed_->gave_up();
     if (summary_.gave_up) {
       message("ten frames in a row could not be read: those after them were not looked at");
@@ -238,6 +252,7 @@ class CameraRun {
   Stopwatch watch_;
   std::optional<FrameRecorder> recorder_;
   std::optional<MaskWriter> masks_;
+  std::optional<CloudWriter> clouds_;
   // Those with threads come last, so that they end first; what the writer still has to do is the recorder's.
   std::optional<WriterThread> writer_;
   std::optional<LiveView> view_;
@@ -307,6 +322,13 @@ Command add_camera(CLI::App& parent) {
       ->type_name("HOW")
       ->capture_default_str();
   command
+      ->add_option("--scene", arguments->scene,
+                   "What things stand on: auto (the plane with most readings, or a table well seen over it), table "
+                   "(the highest plane) or floor (the lowest)")
+      ->check(CLI::IsMember({"auto", "table", "floor"}))
+      ->type_name("WHAT")
+      ->capture_default_str();
+  command
       ->add_option("--up-direction", arguments->up,
                    "What is up for the camera, as x,y,z (x right, y down, z forward): tells a table from a wall")
       ->type_name("X,Y,Z");
@@ -319,6 +341,10 @@ Command add_camera(CLI::App& parent) {
   command->add_option("--record", arguments->record, "Also keep the frames: a folder that SOURCE may name later")
       ->type_name("DIR");
   command->add_option("--masks", arguments->masks, "For each frame write a 16-bit PNG of the objects' ids")
+      ->type_name("DIR");
+  command
+      ->add_option("--clouds", arguments->clouds,
+                   "For each frame write the points of each object and of the table as PLY files, in metres")
       ->type_name("DIR");
   command
       ->add_option(

@@ -29,6 +29,13 @@ Json scene_figures(const Dataset& objects, const SceneOptions& options);
 // shared data has it). `scratch`: where the shapes are written.
 Json kinect_figures(const std::filesystem::path& scenes, const std::filesystem::path& scratch, int views, int threads);
 
+// How many labelled parts of the pictures below a folder are found, by each way to split, and how often the table is
+// missed over 20 seeds. Labels from `first_label` on are parts.
+Json labelled_figures(const std::filesystem::path& folder, int first_label);
+
+// The same for so many rendered rooms of blocks and tins on a table before a wall.
+Json room_figures(int count, std::uint64_t seed);
+
 // Frames in memory of scenes with so many objects, all found in every frame: milliseconds and frames a second.
 Json speed_figures(const Dataset& objects, const SceneOptions& options, double seconds);
 

@@ -14,6 +14,9 @@ int main(int argc, char** argv) {
   std::filesystem::path kinect;
   std::filesystem::path scratch = "build/camera";
   spincat::bench::SceneOptions options;
+  std::vector<std::filesystem::path> labelled;
+  int first_label = 20;
+  int rooms = 0;
   bool scenes = false;
   double speed = 0.0;
   app.add_option("--objects", dataset, "data set to make scenes of, whose y axis points up");
@@ -22,6 +25,9 @@ int main(int argc, char** argv) {
   app.add_flag("--scenes", scenes, "rendered scenes of the objects");
   app.add_option("--speed", speed, "so many seconds of each timing");
   app.add_option("--kinect", kinect, "folder of the real scenes (mosd-dev)");
+  app.add_option("--labelled", labelled, "folders of depth pictures with labels (camera.txt in each)");
+  app.add_option("--first-label", first_label, "that is a part's, in --labelled");
+  app.add_option("--rooms", rooms, "so many rendered rooms, with false objects counted");
   app.add_option("--scratch", scratch, "folder for generated shapes");
   app.add_option("--views", options.views, "of each object");
   app.add_option("--count", options.scenes, "scenes of each fifth of the objects");
@@ -35,6 +41,12 @@ int main(int argc, char** argv) {
     spincat::bench::Json report = spincat::bench::Json::object();
     if (!kinect.empty()) {
       report["kinect"] = spincat::bench::kinect_figures(kinect, scratch / "shapes", options.views, options.threads);
+    }
+    for (const std::filesystem::path& folder : labelled) {
+      report["labelled"][folder.string()] = spincat::bench::labelled_figures(folder, first_label);
+    }
+    if (rooms > 0) {
+      report["rooms"] = spincat::bench::room_figures(rooms, options.seed);
     }
     if (scenes) {
       report["scenes"] = spincat::bench::scene_figures(spincat::read_dataset({dataset}, data_options), options);

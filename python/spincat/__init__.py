@@ -10,7 +10,7 @@ Objects are meshes or point clouds, in any unit. Where a function takes objects,
 input is an InputError (a ValueError), whatever else fails a RunError (a RuntimeError).
 """
 
-from ._camera import Frame, Recogniser, SeenFrame, SeenObject, frames
+from ._camera import Box3D, Frame, Recogniser, SeenFrame, SeenObject, frames
 from ._classifier import Classifier, Evidence, EvidencePart
 from ._describe import describe, settings
 from ._evaluate import Splits, evaluate
@@ -20,6 +20,7 @@ from ._spincat import Ballot, Evaluation, InputError, Object, Rate, RunError, __
 
 __all__ = [
     "Ballot",
+    "Box3D",
     "Classifier",
     "DroppedPointsWarning",
     "Evaluation",

@@ -26,6 +26,14 @@ class Frame(NamedTuple):
     time: float
 
 
+class Box3D(NamedTuple):
+    """A box that stands upright on the table, in metres in the camera's frame."""
+
+    centre: npt.NDArray[np.float32]
+    axes: npt.NDArray[np.float32]  # a row each: the longer side along the table, the shorter, up
+    size: npt.NDArray[np.float32]  # along the axes
+
+
 @dataclass(frozen=True, repr=False)
 class SeenObject:
     """An object on the table. `name` and what follows are over its last frames; where it could not be named, `problem`
@@ -36,6 +44,7 @@ class SeenObject:
     pixels: int
     box: tuple[int, int, int, int]  # left, top, right, bottom, in pixels, inclusive
     centre: npt.NDArray[np.float32]  # of its points, in metres in the camera's frame
+    box3d: Box3D  # around what is seen of it
     height: float  # over the table, in metres
     distance: float  # from the camera, in metres
     cut: bool  # touches the picture's border
@@ -54,11 +63,12 @@ class SeenObject:
 @dataclass(frozen=True, repr=False)
 class SeenFrame:
     """What is seen in a frame. `status` is "objects", "empty_table", "no_table", "few_readings" or "wrong_units";
-    `table` the plane n . x + d = 0 as (nx, ny, nz, d) in metres; `ids` says for each pixel which segment it is of."""
+    `table` the plane n . x + d = 0 as (nx, ny, nz, d) in metres and `outline` the corners of what is seen of it; `ids` says for each pixel which segment it is of."""
 
     status: str
     median_depth: float
     table: Optional[npt.NDArray[np.float32]]
+    outline: npt.NDArray[np.float32]  # N x 3
     ids: npt.NDArray[np.uint16]
     objects: list[SeenObject]
 
@@ -85,9 +95,10 @@ class Recogniser:
     """Names the objects on a table, frame after frame, by a Classifier or a model file (best learned with `views`).
 
     `up` is what is up in the camera's frame (x right, y down, z forward), where it is known. Objects that are less known
-    than `reject` are called "unknown" (None: the model's choice). `split` parts what touches along grooves; objects
-    have `least_pixels` or more and reach `least_height` metres over the table, and nothing above `most_height` is
-    looked at. Votes are summed over `summed_frames`. What it says depends on the frames so far, and neither on the
+    than `reject` are called "unknown" (None: the model's choice). `split` parts what touches along grooves. Things
+    stand on what `scene` says: "table", the highest plane that is seen well, "floor", the lowest, or "auto", the plane
+    with most readings or a table well seen over it. Objects show the camera `least_area` square metres or more and reach
+    `least_height` metres over the table, and nothing above `most_height` is looked at. Votes are summed over `summed_frames`. What it says depends on the frames so far, and neither on the
     number of threads nor on the clock.
     """
 
@@ -98,9 +109,10 @@ class Recogniser:
         up: Optional[Sequence[float]] = None,
         reject: Optional[float] = None,
         split: bool = False,
-        least_pixels: int = 300,
+        scene: str = "auto",
+        least_area: float = 0.0004,
         least_height: float = 0.015,
-        most_height: float = 0.6,
+        most_height: float = 2.0,
         summed_frames: int = 30,
         threads: Optional[int] = None,
     ) -> None:
@@ -109,7 +121,8 @@ class Recogniser:
             "up": None if up is None else [real("up", one) for one in up],
             "reject": None if reject is None else real("reject", reject),
             "split": bool(split),
-            "least_pixels": whole("least_pixels", least_pixels),
+            "scene": str(scene),
+            "least_area": real("least_area", least_area),
             "least_height": real("least_height", least_height),
             "most_height": real("most_height", most_height),
             "summed_frames": whole("summed_frames", summed_frames),
@@ -134,8 +147,9 @@ class Recogniser:
             status=seen["status"],
             median_depth=seen["median_depth"],
             table=seen["table"],
+            outline=seen["outline"],
             ids=seen["ids"],
-            objects=[SeenObject(**one) for one in seen["objects"]],
+            objects=[SeenObject(box3d=Box3D(*one.pop("box3d")), **one) for one in seen["objects"]],
         )
 
 

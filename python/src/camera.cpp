@@ -55,6 +55,23 @@ Intrinsics intrinsics_of(const std::array<double, 4>& given) {
   return intrinsics;
 }
 
+// 3 x 3: a row for each axis.
+py::array_t<float> axes_of(const OrientedBox& box) {
+  py::array_t<float> axes({3, 3});
+  std::copy_n(box.axes.data(), 9, axes.mutable_data());  // columns one after the other
+  return axes;
+}
+
+SceneKind scene_of(const std::string& name) {
+  if (name == "auto") {
+    return SceneKind::automatic;
+  }
+  if (name != "table" && name != "floor") {
+    throw InputError("scene: expected 'auto', 'table' or 'floor', found '" + name + "'");
+  }
+  return name == "table" ? SceneKind::table : SceneKind::floor;
+}
+
 // Python's class Recogniser. Two threads of Python may call it: it looks at one frame after the other.
 class FrameReader {
  public:
@@ -81,6 +98,9 @@ class FrameReader {
         py::make_tuple(object.segment.left, object.segment.top, object.segment.right, object.segment.bottom);
     const Eigen::Vector3f& centre = object.segment.centre;
     result["centre"] = array_of<float>({centre.x(), centre.y(), centre.z()});
+    const OrientedBox& box = object.segment.box;
+    result["box3d"] = py::make_tuple(array_of<float>({box.centre.x(), box.centre.y(), box.centre.z()}), axes_of(box),
+                                     array_of<float>({box.size.x(), box.size.y(), box.size.z()}));
     result["height"] = object.segment.height;
     result["distance"] = object.distance;
     result["cut"] = object.segment.cut;
@@ -101,6 +121,12 @@ class FrameReader {
     result["status"] = name_of(seen.status);
     result["median_depth"] = seen.median_depth;
     result["table"] = py::none();
+    py::array_t<float> outline({static_cast<py::ssize_t>(seen.segmentation.outline.size()), py::ssize_t{3}});
+    float* to = outline.mutable_data();
+    for (const Eigen::Vector3f& corner : seen.segmentation.outline) {
+      to = std::copy_n(corner.data(), 3, to);
+    }
+    result["outline"] = outline;
     if (seen.table) {
       const Eigen::Vector3f& normal = seen.table->normal;
       result["table"] = array_of<float>({normal.x(), normal.y(), normal.z(), seen.table->offset});
@@ -136,7 +162,8 @@ std::unique_ptr<FrameReader> make_reader(const Model& model, const py::dict& wan
     settings.table.up = direction.stableNormalized();
   }
   settings.segment.split = wanted["split"].cast<bool>() ? SegmentSplit::concave : SegmentSplit::none;
-  settings.segment.least_pixels = wanted["least_pixels"].cast<int>();
+  settings.table.scene = scene_of(wanted["scene"].cast<std::string>());
+  settings.segment.least_area = wanted["least_area"].cast<float>();
   settings.segment.least_height = wanted["least_height"].cast<float>();
   settings.segment.most_height = wanted["most_height"].cast<float>();
   settings.summed_frames = wanted["summed_frames"].cast<int>();

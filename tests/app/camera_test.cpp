@@ -17,6 +17,7 @@
 #include <sstream>
 #include <string>
 #include <thread>
+#include <variant>
 #include <vector>
 
 #include "app/on_terminal.h"
@@ -24,6 +25,7 @@
 #include "spincat/camera/source/calibration.h"
 #include "spincat/camera/source/depth_png.h"
 #include "spincat/files/file.h"
+#include "spincat/io/read_object.h"
 #include "support/scenes.h"
 #include "support/temp_dir.h"
 
@@ -185,6 +187,7 @@ TEST_F(CameraCommand, PrintsALineForEachFrameAndASummary) {
   EXPECT_EQ(last.at("file"), "3.png");
   EXPECT_EQ(last.at("status"), "objects");
   EXPECT_NEAR(last.at("plane").at("distance").get<double>(), 0.7, 0.01);
+  EXPECT_GE(last.at("plane").at("outline").size(), 4U);
   ASSERT_EQ(last.at("objects").size(), 2U);
   std::vector<std::string> names;
   for (const Json& object : last.at("objects")) {
@@ -192,6 +195,9 @@ TEST_F(CameraCommand, PrintsALineForEachFrameAndASummary) {
     EXPECT_EQ(object.at("fused").at("frames"), 4);  // followed from the first frame on
     EXPECT_EQ(object.at("status"), "named");
     EXPECT_EQ(object.at("box").size(), 4U);
+    EXPECT_NEAR(object.at("centre")[2].get<double>(), object.at("distance").get<double>(), 0.3);
+    EXPECT_EQ(object.at("box3d").at("axes").size(), 3U);
+    EXPECT_NEAR(object.at("box3d").at("size")[2].get<double>(), object.at("height").get<double>(), 0.03);
     EXPECT_TRUE(object.at("votes").contains("cone"));
   }
   std::ranges::sort(names);
@@ -232,6 +238,20 @@ TEST_F(CameraCommand, RecordsWhatItCanReplay) {
     const auto id = object.at("id").get<float>();
     EXPECT_EQ(std::ranges::count(mask.depth, id), object.at("pixels").get<std::ptrdiff_t>());
   }
+  // So do the clouds.
+  const Result clouds = run("camera m.spincat frames --every 3 --clouds clouds --scene table");
+  EXPECT_EQ(clouds.code, 0) << clouds.err;
+  for (const Json& object : clouds.lines[1].at("objects")) {
+    const std::string name = "clouds/000003-" + std::to_string(object.at("id").get<int>()) + ".ply";
+    const PointCloud cloud = std::get<PointCloud>(read_object(folder_->path() / name));
+    EXPECT_EQ(cloud.points.size(), object.at("pixels").get<std::size_t>());
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& p : cloud.points) {
+      sum += p;
+    }
+    EXPECT_NEAR(sum.z() / static_cast<double>(cloud.points.size()), object.at("centre")[2].get<double>(), 1e-3);
+  }
+  EXPECT_GT(std::get<PointCloud>(read_object(folder_->path() / "clouds/000003-table.ply")).points.size(), 1000U);
   // A recording is not mixed with another.
   const Result again = run("camera m.spincat frames --record copy");
   EXPECT_EQ(again.code, 2);

@@ -87,7 +87,8 @@ class Camera(Folder):
             ("up", {"up": [0, 0, 0]}),
             ("up", {"up": [0, 1]}),
             ("least share of known 2", {"reject": 2}),
-            ("least_pixels|least pixels|pixels", {"least_pixels": -5}),
+            ("least_area|least area", {"least_area": -5}),
+            ("scene", {"scene": "ceiling"}),
             ("summed_frames|frames", {"summed_frames": 0}),
         ):
             with self.assertRaisesRegex(spincat.InputError, words):

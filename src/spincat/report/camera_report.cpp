@@ -45,11 +45,21 @@ Json vector_json(const Eigen::Vector3f& v) {
   return json;
 }
 
+Json box_json(const OrientedBox& box) {
+  Json axes = Json::array();
+  for (int k = 0; k < 3; ++k) {
+    axes.push_back(vector_json(box.axes.col(k)));
+  }
+  return {{"centre", vector_json(box.centre)}, {"axes", axes}, {"size", vector_json(box.size)}};
+}
+
 Json object_of(const SeenObject& object, const std::vector<std::string>& categories) {
   const Segment& s = object.segment;
   Json json = {{"id", object.id},
                {"box", {s.left, s.top, s.right - s.left + 1, s.bottom - s.top + 1}},
                {"pixels", s.pixels},
+               {"centre", vector_json(s.centre)},
+               {"box3d", box_json(s.box)},
                {"distance", rounded(static_cast<double>(object.distance), 1e4)},
                {"height", rounded(static_cast<double>(s.height), 1e4)},
                {"cut", s.cut}};
@@ -110,11 +120,12 @@ std::string why_nothing(const SeenFrame& frame) {
     case FrameStatus::objects:
       break;
     case FrameStatus::empty_table:
-      return left.outside + left.too_few + left.too_low == 0
+      return left.outside + left.too_few + left.too_low + left.too_high == 0
                  ? "nothing on the table"
                  : fmt::format(
-                       "no object on the table: {} pixels in patches too small, {} too low, {} beside the table",
-                       left.too_few, left.too_low, left.outside);
+                       "no object on the table: {} pixels in patches too small, {} too low, {} too high, {} beside the "
+                       "table",
+                       left.too_few, left.too_low, left.too_high, left.outside);
     case FrameStatus::no_table:
       return "no table: no plane holds enough of the readings (is --up-direction right?)";
     case FrameStatus::few_readings:
@@ -143,14 +154,21 @@ std::string frame_json(const FrameFacts& facts, const SeenFrame& frame, const st
   if (frame.table) {
     json["plane"] = {{"normal", vector_json(frame.table->normal)},
                      {"distance", rounded(static_cast<double>(frame.table->offset), 1e4)},
-                     {"share", rounded(frame.table->share, 1e4)}};
+                     {"share", rounded(frame.table->share, 1e4)},
+                     {"outline", Json::array()}};
+    for (const Eigen::Vector3f& corner : frame.segmentation.outline) {
+      json["plane"]["outline"].push_back(vector_json(corner));
+    }
   }
   json["objects"] = Json::array();
   for (const SeenObject& object : frame.objects) {
     json["objects"].push_back(object_of(object, categories));
   }
   const NotObjects& left = frame.segmentation.left_out;
-  json["left_out"] = {{"too_small", left.too_few}, {"too_low", left.too_low}, {"beside_table", left.outside}};
+  json["left_out"] = {{"too_small", left.too_few},
+                      {"too_low", left.too_low},
+                      {"too_high", left.too_high},
+                      {"beside_table", left.outside}};
   json["milliseconds"] = {{"read", milliseconds(facts.read_seconds)},
                           {"table", milliseconds(frame.seconds.table)},
                           {"segment", milliseconds(frame.seconds.segment)},

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -133,15 +135,90 @@ TEST(Segment, KeepsATableTogetherByItsFootprint) {
 
 TEST(Segment, SaysWhyThereIsNoObject) {
   Scene scene;
-  scene.things = {moved(test::box(0.012, 0.012, 0.03), {-0.2, 0.0, 0.015}),  // small
-                  moved(test::box(0.2, 0.2, 0.012), {0.1, 0.0, 0.006}),      // flat
-                  moved(test::box(0.1, 0.1, 0.1), {0.0, 0.75, 0.1})};        // behind the table's edge
+  scene.things = {moved(test::box(0.01, 0.01, 0.03), {-0.2, 0.0, 0.015}),  // small
+                  moved(test::box(0.2, 0.2, 0.012), {0.1, 0.0, 0.006}),    // flat
+                  moved(test::box(0.1, 0.1, 0.1), {0.0, 0.85, 0.1})};      // behind the table's edge
   const Segmentation found = segmented(scene, SegmentSplit::none);
   EXPECT_TRUE(found.objects.empty());
   EXPECT_GT(found.left_out.too_few, 20U);
   EXPECT_LT(found.left_out.too_few, 300U);
   EXPECT_GT(found.left_out.too_low, 1000U);
   EXPECT_GT(found.left_out.outside, 300U);
+}
+
+// Boxes in rows, so close that the table between them is seen in strips alone.
+TEST(Segment, FindsThingsOnAFullTable) {
+  Scene scene;
+  scene.table_half = 0.45;
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 5; ++column) {
+      scene.things.push_back(moved(test::box(0.1, 0.1, 0.06 + 0.02 * ((row + column) % 3)),
+                                   {-0.36 + 0.18 * column, -0.33 + 0.22 * row, 0.04}));
+    }
+  }
+  for (const SegmentSplit split : {SegmentSplit::none, SegmentSplit::concave}) {
+    const std::vector<double> shares = agreement(scene, segmented(scene, split, 1.0));
+    EXPECT_GE(std::ranges::count_if(shares, [](double share) { return share > 0.75; }), 19);
+  }
+}
+
+// Walls right behind a table, that come up from below it and that end on it, and a floor.
+TEST(Segment, TakesNoWallForAThing) {
+  for (const double gap : {0.0, 0.01, 0.03, 0.06, 0.2}) {
+    for (const double turn : {0.0, 0.5}) {
+      Scene scene = two_boxes(0.15);
+      scene.viewpoint = Viewpoint::looking_at({0.8 * std::sin(turn), -0.8 * std::cos(turn), 0.5}, {0.0, 0.3, 0.1});
+      const std::size_t things = scene.things.size();
+      scene.things.push_back(moved(test::box(4.0, 0.01, 3.0), {0.0, 0.6 + gap + 0.005, 0.0}));
+      scene.things.push_back(moved(test::box(6.0, 6.0, 0.01), {0.0, 0.0, -0.7}));
+      for (const SegmentSplit split : {SegmentSplit::none, SegmentSplit::concave}) {
+        const Segmentation found = segmented(scene, split, 1.0);
+        EXPECT_EQ(found.objects.size(), things) << "a gap of " << gap << " m, turned by " << turn;
+        const std::vector<double> shares = agreement(scene, found);
+        EXPECT_GT(std::min(shares[0], shares[1]), 0.8);
+      }
+    }
+  }
+}
+
+TEST(Segment, GivesEachObjectItsBox) {
+  Scene scene = two_boxes(0.15);
+  const Segmentation found = segmented(scene, SegmentSplit::none);
+  ASSERT_EQ(found.objects.size(), 2U);
+  // Of the first the front and the top are seen: all of its footprint.
+  const OrientedBox& box = found.objects[0].box;
+  EXPECT_NEAR(box.size.x(), 0.12, 0.006);
+  EXPECT_NEAR(box.size.y(), 0.1, 0.006);
+  EXPECT_NEAR(box.size.z(), 0.15, 0.006);
+  const Vec3 centre(-0.135, 0.0, 0.075);
+  EXPECT_LT((box.centre - scene.viewpoint.to_camera(centre).cast<float>()).norm(), 0.006F);
+  EXPECT_NEAR(box.axes.determinant(), 1.0F, 1e-5F);
+  EXPECT_GT(box.axes.col(2).dot(scene.table().normal), 0.9999F);
+  EXPECT_GT(std::abs(box.axes.col(0).dot((scene.viewpoint.axes * Vec3::UnitX()).cast<float>())), 0.999F);
+}
+
+TEST(Segment, TellsWhereTheTableEnds) {
+  Scene scene;
+  scene.table_half = 0.3;
+  const Segmentation found = segmented(scene, SegmentSplit::none);
+  ASSERT_GE(found.outline.size(), 4U);
+  float widest = 0.0F;
+  for (const Eigen::Vector3f& corner : found.outline) {
+    EXPECT_NEAR(scene.table().height(corner), 0.0F, 1e-5F);
+    widest = std::max(widest, (corner - found.outline[0]).norm());
+  }
+  EXPECT_NEAR(widest, 0.6 * std::numbers::sqrt2, 0.09);
+}
+
+TEST(Segment, SaysWhatIsTooHigh) {
+  Scene scene;
+  scene.viewpoint = Viewpoint::looking_at({0.0, -4.0, 2.0}, {0.0, 0.0, 0.6});
+  scene.table_half = 1.5;
+  scene.things = {moved(test::box(0.3, 0.3, 2.4), {0.0, 0.0, 1.2})};
+  const Segmentation found = segmented(scene, SegmentSplit::none);
+  ASSERT_EQ(found.objects.size(), 1U);
+  EXPECT_NEAR(found.objects[0].height, 2.0, 0.03);
+  EXPECT_GT(found.left_out.too_high, 100U);
 }
 
 TEST(Segment, SaysThatThePictureCutsAnObject) {
@@ -154,8 +231,9 @@ TEST(Segment, SaysThatThePictureCutsAnObject) {
 
 TEST(SegmentSettings, AreRefusedOutOfRange) {
   SegmentSettings settings;
-  settings.least_pixels = 0;
-  EXPECT_NE(test::input_error([&] { settings.validate(); }).find("pixels 0 is out of range"), std::string::npos);
+  settings.least_area = -1.0F;
+  EXPECT_NE(test::input_error([&] { settings.validate(); }).find("least area of objects -1 m2 is out of range"),
+            std::string::npos);
   settings = {};
   settings.least_height = 2.0F;
   EXPECT_NE(test::input_error([&] { settings.validate(); }).find("out of range"), std::string::npos);

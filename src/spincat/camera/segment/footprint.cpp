@@ -5,13 +5,15 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "spincat/camera/segment/patches.h"
 
 namespace spincat {
 namespace {
 
-constexpr float kCell = 0.008F;       // metres
+constexpr float kLeastCell = 0.008F;  // metres
+constexpr float kNoise = 0.5F;        // of a plane's tolerance at the things' depth: as wide is a cell at least
 constexpr std::uint32_t kFewest = 2;  // pixels in a cell for it to count
 constexpr int kMostCells = 4'000;     // along an axis; what lies beyond belongs to the last cell
 
@@ -21,17 +23,19 @@ class Footprint {
   Footprint(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table, const Labels& over_table)
       : x_axis_(table.normal.unitOrthogonal()), y_axis_(table.normal.cross(x_axis_)) {
     std::vector<Eigen::Vector2f> places;
+    std::vector<float> depths;
     for (int v = 0; v < image.height; ++v) {
       for (int u = 0; u < image.width; ++u) {
         const std::size_t i = image.index(u, v);
         if (over_table[i] != 0) {
           const Eigen::Vector3f p = intrinsics.point(u, v, image.depth[i]);
           places.emplace_back(x_axis_.dot(p), y_axis_.dot(p));
+          depths.push_back(p.z());
           pixels_.push_back(static_cast<std::uint32_t>(i));
         }
       }
     }
-    count_pixels(places);
+    count_pixels(places, cell_at(std::move(depths)));
   }
 
   // A label for each pixel: the component (8 neighbours) of the cells that count, where its own does.
@@ -55,7 +59,17 @@ class Footprint {
   }
 
  private:
-  void count_pixels(const std::vector<Eigen::Vector2f>& places) {
+  // Readings of one surface are to fall into neighbouring cells.
+  static float cell_at(std::vector<float> depths) {
+    if (depths.empty()) {
+      return kLeastCell;
+    }
+    const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+    std::ranges::nth_element(depths, middle);
+    return std::max(kLeastCell, kNoise * plane_tolerance(*middle));
+  }
+
+  void count_pixels(const std::vector<Eigen::Vector2f>& places, float cell) {
     Eigen::Vector2f low = Eigen::Vector2f::Zero();
     Eigen::Vector2f high = low;
     if (!places.empty()) {
@@ -65,13 +79,13 @@ class Footprint {
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
     }
-    const auto cells = [](float length) { return std::min(static_cast<int>(length / kCell) + 1, kMostCells); };
+    const auto cells = [&](float length) { return std::min(static_cast<int>(length / cell) + 1, kMostCells); };
     columns_ = cells(high.x() - low.x());
     rows_ = cells(high.y() - low.y());
     counts_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
     for (const Eigen::Vector2f& p : places) {
-      const int x = std::min(static_cast<int>((p.x() - low.x()) / kCell), columns_ - 1);
-      const int y = std::min(static_cast<int>((p.y() - low.y()) / kCell), rows_ - 1);
+      const int x = std::min(static_cast<int>((p.x() - low.x()) / cell), columns_ - 1);
+      const int y = std::min(static_cast<int>((p.y() - low.y()) / cell), rows_ - 1);
       cells_.push_back(index(x, y));
       ++counts_[cells_.back()];
     }

@@ -11,30 +11,96 @@ float least_height_over_table(float z) {
   return 0.003F + 0.004F * z * z;
 }
 
+// Heights over the table, pixel by pixel.
+class Heights {
+ public:
+  Heights(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table)
+      : image_(image), offset_(table.offset) {
+    for (int u = 0; u < image.width; ++u) {
+      across_.push_back(table.normal.x() * static_cast<float>((u - intrinsics.cx) / intrinsics.fx));
+    }
+    for (int v = 0; v < image.height; ++v) {
+      down_.push_back(table.normal.y() * static_cast<float>((v - intrinsics.cy) / intrinsics.fy) + table.normal.z());
+    }
+  }
+
+  float at(int u, int v) const {
+    return image_.at(u, v) * (across_[static_cast<std::size_t>(u)] + down_[static_cast<std::size_t>(v)]) + offset_;
+  }
+
+ private:
+  const DepthImage& image_;
+  float offset_;
+  std::vector<float> across_;  // the part of height / z that depends on the column
+  std::vector<float> down_;
+};
+
+// Whether a pixel on the rim has a neighbour beyond it at the same depth.
+bool goes_on_at(const DepthImage& image, const std::vector<std::uint8_t>& is_beyond, int u, int v) {
+  const float z = image.at(u, v);
+  const auto is_continued_at = [&](int x, int y) {
+    return x >= 0 && y >= 0 && x < image.width && y < image.height && is_beyond[image.index(x, y)] != 0 &&
+           std::abs(z - image.at(x, y)) < link_tolerance(z);
+  };
+  return is_continued_at(u - 1, v) || is_continued_at(u + 1, v) || is_continued_at(u, v - 1) ||
+         is_continued_at(u, v + 1);
+}
+
+// Whether the surface at a pixel at the foot is seen below the table, too, as a wall's is behind its edge: the first
+// reading below it and some more after that, so that no noise passes for it.
+bool comes_from_below(const DepthImage& image, const Intrinsics& intrinsics, const Heights& heights, int u, int v) {
+  constexpr int kMore = 6;  // rows
+  const float z = image.at(u, v);
+  const auto is_below = [&](int y) { return image.at(u, y) > 0.0F && heights.at(u, y) < -plane_tolerance(z); };
+  const int reach = static_cast<int>(std::lround(4.0F * plane_tolerance(z) * static_cast<float>(intrinsics.fy) / z));
+  for (int y = v + 1; y <= std::min(v + reach, image.height - 1 - kMore); ++y) {
+    if (is_below(y)) {
+      return std::abs(image.at(u, y) - z) < 2.0F * link_tolerance(z) && is_below(y + kMore / 2) && is_below(y + kMore);
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
-Labels pixels_over_table(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table,
-                         const SegmentSettings& settings, NotObjects& left_out) {
+PixelsOverTable pixels_over_table(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table,
+                                  const SegmentSettings& settings, NotObjects& left_out) {
   const TableArea area(image, intrinsics, table);
-  Labels over(image.depth.size(), 0);
-  std::vector<float> across(
-      static_cast<std::size_t>(image.width));  // the part of height / z that depends on the column
-  for (int u = 0; u < image.width; ++u) {
-    across[static_cast<std::size_t>(u)] = table.normal.x() * static_cast<float>((u - intrinsics.cx) / intrinsics.fx);
-  }
+  const Heights heights(image, intrinsics, table);
+  PixelsOverTable over{Labels(image.depth.size(), 0), std::vector<PixelHint>(image.depth.size(), PixelHint{}),
+                       area.outline()};
+  std::vector<std::uint8_t> is_beyond(image.depth.size(), 0);
   for (int v = 0; v < image.height; ++v) {
-    const float down = table.normal.y() * static_cast<float>((v - intrinsics.cy) / intrinsics.fy) + table.normal.z();
     for (int u = 0; u < image.width; ++u) {
       const float z = image.at(u, v);
-      const float height = z * (across[static_cast<std::size_t>(u)] + down) + table.offset;
-      if (!(z > 0.0F) || height < least_height_over_table(z) || height > settings.most_height) {
+      const float height = heights.at(u, v);
+      if (!(z > 0.0F) || height < least_height_over_table(z)) {
         continue;
       }
-      if (area.contains(intrinsics.point(u, v, z))) {
-        over[image.index(u, v)] = 1;
-      } else {
+      const std::size_t i = image.index(u, v);
+      const TableArea::Place place = area.place_of(intrinsics.point(u, v, z));
+      over.hints[i].on_rim = place == TableArea::Place::rim;
+      if (place == TableArea::Place::outside) {
         ++left_out.outside;
+        is_beyond[i] = 1;
+      } else if (height > settings.most_height) {
+        ++left_out.too_high;
+        is_beyond[i] = 1;
+      } else {
+        over.labels[i] = 1;
       }
+    }
+  }
+  for (int v = 0; v < image.height; ++v) {
+    for (int u = 0; u < image.width; ++u) {
+      const std::size_t i = image.index(u, v);
+      if (over.labels[i] == 0) {
+        continue;
+      }
+      PixelHint& hint = over.hints[i];
+      hint.goes_on = hint.on_rim && goes_on_at(image, is_beyond, u, v);
+      hint.at_foot = v + 1 < image.height && over.labels[image.index(u, v + 1)] == 0;
+      hint.from_below = hint.at_foot && comes_from_below(image, intrinsics, heights, u, v);
     }
   }
   return over;

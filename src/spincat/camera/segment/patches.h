@@ -44,9 +44,24 @@ class DisjointSets {
 // Labels of an image's pixels: 0 for none, else the number of a patch.
 using Labels = std::vector<std::uint32_t>;
 
-// The pixels over the table that may belong to objects: 1, others 0. Counts those that lie outside the table's area.
-Labels pixels_over_table(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table,
-                         const SegmentSettings& settings, NotObjects& left_out);
+// What a pixel over the table says about whether its surface stands on it.
+struct PixelHint {
+  bool on_rim : 1;      // over the rim of the table's area
+  bool goes_on : 1;     // on the rim, and its surface goes on beside it beyond the rim
+  bool at_foot : 1;     // the lowest over the table in its column
+  bool from_below : 1;  // at the foot, and its surface comes up from below the table
+};
+
+// The pixels over the table that may belong to objects.
+struct PixelsOverTable {
+  Labels labels;  // 1, others 0
+  std::vector<PixelHint> hints;
+  std::vector<Eigen::Vector3f> outline;  // TableArea::outline
+};
+
+// Counts those that lie outside the table's area.
+PixelsOverTable pixels_over_table(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table,
+                                  const SegmentSettings& settings, NotObjects& left_out);
 
 // Numbers the patches of the labelled pixels: pixels of one label, at most `gap` apart in a row or column with none of
 // their label between, belong together where their depths agree. Patches count from 1 by their first pixels.

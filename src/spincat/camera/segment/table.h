@@ -23,14 +23,19 @@ inline float plane_tolerance(float z) {
 std::optional<SupportPlane> find_table(const DepthImage& image, const Intrinsics& intrinsics,
                                        const TableSettings& settings, const std::optional<SupportPlane>& before = {});
 
-// The convex hull of what is seen of a table, in cells of 2 cm, two cells wider all round.
+// The convex hull of what is seen of a table, in cells of 2 cm (10 cm at most for a far floor), and a rim of 12 cm.
+// Pieces of the table that things part are seen together; what the camera sees the floor or a wall before is no piece
+// of it.
 class TableArea {
  public:
   TableArea(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table);
 
-  // Whether the point lies above (or below) the area.
-  bool contains(const Eigen::Vector3f& point) const;
+  enum class Place : std::uint8_t { outside, rim, inside };
+  // Where the point lies above (or below) the plane.
+  Place place_of(const Eigen::Vector3f& point) const;
   bool empty() const { return cells_.empty(); }
+  // The corners of what is seen, without the rim, on the plane and in the camera's frame.
+  const std::vector<Eigen::Vector3f>& outline() const { return outline_; }
 
  private:
   struct Cell {
@@ -38,15 +43,22 @@ class TableArea {
     int y;
   };
   Cell cell_of(const Eigen::Vector3f& point) const;
-  std::vector<std::uint8_t> filled_cells(const DepthImage& image, const Intrinsics& intrinsics,
-                                         const SupportPlane& table);
+  class Evidence;
+  Eigen::Vector3f point_of(int x, int y, const SupportPlane& table) const;
+  int rim_cells() const;
+  std::vector<std::uint8_t> filled_cells(const DepthImage& image, const Intrinsics& intrinsics, float camera_height,
+                                         const Evidence& evidence);
+  std::vector<std::uint8_t> possible_cells(const DepthImage& image, const Intrinsics& intrinsics,
+                                           const Evidence& evidence) const;
 
   Eigen::Vector3f x_axis_;
   Eigen::Vector3f y_axis_;
+  float cell_ = 0.0F;  // metres
   Eigen::Vector2f low_ = Eigen::Vector2f::Zero();
   int columns_ = 0;
   int rows_ = 0;
-  std::vector<std::uint8_t> cells_;  // rows_ x columns_: 1 inside
+  std::vector<Place> cells_;  // rows_ x columns_
+  std::vector<Eigen::Vector3f> outline_;
 };
 
 }  // namespace spincat

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
-#include <map>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "spincat/camera/segment/hull.h"
@@ -16,7 +18,7 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-constexpr std::size_t kFewest = 2;  // points in a square for it to count
+constexpr std::uint32_t kFewest = 2;  // points in a square for it to count
 
 // The least and the largest along some axes.
 struct Extent {
@@ -38,23 +40,88 @@ Extent extent_along(const Vector2f& direction, std::span<const Vector2f> places)
   return extent;
 }
 
-// Where points stand on the plane, by its axes x and y, without those almost alone.
-std::vector<std::size_t> crowded(std::span<const Vector2f> places, float cell) {
-  std::map<GridPoint, std::size_t> counts;
-  const auto cell_of = [&](const Vector2f& p) {
-    return GridPoint{static_cast<int>(std::floor(p.x() / cell)), static_cast<int>(std::floor(p.y() / cell))};
-  };
-  for (const Vector2f& p : places) {
-    ++counts[cell_of(p)];
-  }
-  std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (counts[cell_of(places[i])] >= kFewest) {
-      kept.push_back(i);
+// Places on the plane, in squares.
+class Squares {
+ public:
+  Squares(std::span<const Vector2f> places, float cell) : places_(places), cell_(cell) {
+    for (const Vector2f& p : places) {
+      extent_.add(p);
+    }
+    constexpr float kMost = 2'000.0F;  // squares along an axis
+    cell_ = std::max(cell, (extent_.high - extent_.low).maxCoeff() / kMost);
+    columns_ = cell_of(extent_.high.matrix()).x + 1;
+    rows_ = cell_of(extent_.high.matrix()).y + 1;
+    counts_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
+    for (const Vector2f& p : places) {
+      ++counts_[index_of(cell_of(p))];
     }
   }
-  return kept;
-}
+
+  // The places that are not almost alone in their squares; all where each is.
+  std::vector<std::uint32_t> crowded() const {
+    std::vector<std::uint32_t> kept;
+    for (std::uint32_t i = 0; i < places_.size(); ++i) {
+      if (counts_[index_of(cell_of(places_[i]))] >= kFewest) {
+        kept.push_back(i);
+      }
+    }
+    if (kept.empty()) {
+      kept.resize(places_.size());
+      std::iota(kept.begin(), kept.end(), 0U);
+    }
+    return kept;
+  }
+
+  // Of these places the outermost of each row and column of squares: their hull is that of all but for a square.
+  std::vector<Vector2f> outermost(std::span<const std::uint32_t> some) const {
+    std::vector<Extreme> by_row(static_cast<std::size_t>(rows_));
+    std::vector<Extreme> by_column(static_cast<std::size_t>(columns_));
+    for (const std::uint32_t i : some) {
+      const GridPoint cell = cell_of(places_[i]);
+      by_row[static_cast<std::size_t>(cell.y)].add(places_[i].x(), i);
+      by_column[static_cast<std::size_t>(cell.x)].add(places_[i].y(), i);
+    }
+    std::vector<Vector2f> result;
+    for (const std::vector<Extreme>* all : {&by_row, &by_column}) {
+      for (const Extreme& extreme : *all) {
+        if (extreme.least <= extreme.most) {
+          result.push_back(places_[extreme.at_least]);
+          result.push_back(places_[extreme.at_most]);
+        }
+      }
+    }
+    return result;
+  }
+
+ private:
+  struct Extreme {
+    float least = std::numeric_limits<float>::infinity();
+    float most = -least;
+    std::uint32_t at_least = 0;
+    std::uint32_t at_most = 0;
+
+    void add(float value, std::uint32_t i) {
+      at_least = value < least ? i : at_least;
+      at_most = value > most ? i : at_most;
+      least = std::min(least, value);
+      most = std::max(most, value);
+    }
+  };
+
+  GridPoint cell_of(const Vector2f& p) const {
+    return {static_cast<int>((p.x() - extent_.low[0]) / cell_), static_cast<int>((p.y() - extent_.low[1]) / cell_)};
+  }
+  std::size_t index_of(const GridPoint& cell) const {
+    return static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(cell.x);
+  }
+
+  std::span<const Vector2f> places_;
+  Extent extent_;
+  float cell_;
+  int columns_ = 0;
+  int rows_ = 0;
+  std::vector<std::uint32_t> counts_;
+};
 
 // The direction of that edge of the hull on which the rectangle around it is smallest: one of its sides lies on an edge
 // (Freeman and Shapira 1975).
@@ -64,9 +131,8 @@ Vector2f best_direction(std::span<const Vector2f> places) {
   for (const Vector2f& p : places) {
     points.push_back({static_cast<int>(std::lround(p.x() / kFine)), static_cast<int>(std::lround(p.y() / kFine))});
   }
-  const std::vector<GridPoint> hull = convex_hull(std::move(points));
   std::vector<Vector2f> corners;
-  for (const GridPoint& corner : hull) {
+  for (const GridPoint& corner : convex_hull(std::move(points))) {
     corners.emplace_back(kFine * static_cast<float>(corner.x), kFine * static_cast<float>(corner.y));
   }
   Vector2f best = Vector2f::UnitX();
@@ -93,13 +159,12 @@ OrientedBox box_on_plane(std::span<const Vector3f> points, const SupportPlane& p
   for (const Vector3f& p : points) {
     all.emplace_back(x_axis.dot(p), y_axis.dot(p));
   }
-  std::vector<Vector2f> places;
+  const Squares squares(all, cell);
+  const std::vector<std::uint32_t> some = squares.crowded();
+  const std::vector<Vector2f> places = squares.outermost(some);
   float low = std::numeric_limits<float>::infinity();
   float high = -low;
-  const std::vector<std::size_t> some = crowded(all, cell);
-  for (std::size_t k = 0; k < (some.empty() ? points.size() : some.size()); ++k) {
-    const std::size_t i = some.empty() ? k : some[k];
-    places.push_back(all[i]);
+  for (const std::uint32_t i : some) {
     low = std::min(low, plane.height(points[i]));
     high = std::max(high, plane.height(points[i]));
   }

@@ -23,7 +23,7 @@ constexpr float kMostFacingDown = 0.2F;       // of a normal's part along the pi
 constexpr double kUnlikely = 0.1;             // what counts of the share of a plane that faces down
 constexpr float kLeastDrop = 0.35F;           // metres from a table to the floor or a lower table
 constexpr double kLeastOfFloor = 0.2;         // of the floor's share, for a table before it
-constexpr double kLeastFloor = 0.02;          // share of a floor beyond a table
+constexpr double kLeastLevel = 0.02;          // share of a floor beyond a table
 constexpr float kParallel = 0.99F;            // cosine of the angle between their normals: 8 degrees
 constexpr double kPromising = 0.8;            // of the best plane's share at a glance
 
@@ -202,25 +202,31 @@ SupportPlane finished(SupportPlane table, const std::vector<Reading>& readings) 
   return table;
 }
 
-// The planes along `table` that are peaks among the readings' heights over it, from the lowest up.
-std::vector<SupportPlane> levels_along(const SupportPlane& table, const std::vector<Reading>& readings) {
+// The planes along `table` that are peaks among the readings' heights over it, hold a share of kLeastLevel or more and
+// lie at least `drop` above or below it; from the lowest up.
+std::vector<SupportPlane> levels_along(const SupportPlane& table, const std::vector<Reading>& readings, float drop) {
   constexpr float kBin = 0.02F;  // metres
   constexpr int kBins = 200;     // up and down
   std::vector<double> weights(2 * kBins + 1, 0.0);
+  double all = 0.0;
   for (const Reading& reading : readings) {
     const float bin = std::round(table.height(reading.point) / kBin);
+    all += reading.weight;
     if (std::abs(bin) <= kBins) {
       weights[static_cast<std::size_t>(static_cast<int>(bin) + kBins)] += reading.weight;
     }
   }
   std::vector<SupportPlane> levels;
   for (std::size_t bin = 1; bin + 1 < weights.size(); ++bin) {
-    if (weights[bin] > 0.0 && weights[bin] >= weights[bin - 1] && weights[bin] > weights[bin + 1]) {
+    const float rise = kBin * static_cast<float>(static_cast<int>(bin) - kBins);
+    const bool is_peak = weights[bin] >= weights[bin - 1] && weights[bin] > weights[bin + 1];
+    if (is_peak && std::abs(rise) > 0.9F * drop &&
+        weights[bin - 1] + weights[bin] + weights[bin + 1] > 0.5 * kLeastLevel * all) {
       SupportPlane level = table;
-      level.offset -= kBin * static_cast<float>(static_cast<int>(bin) - kBins);
+      level.offset -= rise;
       level.share = 1.0;
       level = finished(level, readings);
-      if (level.normal.dot(table.normal) > kParallel) {
+      if (level.normal.dot(table.normal) > kParallel && std::abs(table.offset - level.offset) > drop) {
         levels.push_back(level);
       }
     }
@@ -231,21 +237,21 @@ std::vector<SupportPlane> levels_along(const SupportPlane& table, const std::vec
 // The table over the floor that was found, or the floor below the table, as the settings say.
 SupportPlane other_level(const SupportPlane& found, const std::vector<Reading>& readings,
                          const TableSettings& settings) {
+  // So far apart that no reading is of both.
+  const float drop = std::max(kLeastDrop, 4.0F * plane_tolerance(found.offset));
   SupportPlane best = found;
-  for (const SupportPlane& level : levels_along(found, readings)) {
-    const float rise = found.offset - level.offset;  // over the plane that was found
+  for (const SupportPlane& level : levels_along(found, readings, drop)) {
+    const bool is_above = level.offset < found.offset;
     const bool is_seen = level.share >= settings.least_share;
-    // So far apart that no reading is of both.
-    const float drop = std::max(kLeastDrop, 4.0F * plane_tolerance(found.offset));
     switch (settings.scene) {
       case SceneKind::automatic:
-        best = is_seen && rise > drop && level.share >= kLeastOfFloor * found.share ? level : best;
+        best = is_above && is_seen && level.share >= kLeastOfFloor * found.share ? level : best;
         break;
       case SceneKind::table:
-        best = is_seen && rise > drop ? level : best;
+        best = is_above && is_seen ? level : best;
         break;
       case SceneKind::floor:
-        if (rise < -drop && level.share >= kLeastFloor) {
+        if (!is_above && level.share >= kLeastLevel) {
           return level;  // the lowest comes first
         }
         break;

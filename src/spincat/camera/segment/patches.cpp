@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spincat/camera/segment/plane_rays.h"
+
 namespace spincat {
 namespace {
 
@@ -10,30 +12,6 @@ namespace {
 float least_height_over_table(float z) {
   return 0.003F + 0.004F * z * z;
 }
-
-// Heights over the table, pixel by pixel.
-class Heights {
- public:
-  Heights(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table)
-      : image_(image), offset_(table.offset) {
-    for (int u = 0; u < image.width; ++u) {
-      across_.push_back(table.normal.x() * static_cast<float>((u - intrinsics.cx) / intrinsics.fx));
-    }
-    for (int v = 0; v < image.height; ++v) {
-      down_.push_back(table.normal.y() * static_cast<float>((v - intrinsics.cy) / intrinsics.fy) + table.normal.z());
-    }
-  }
-
-  float at(int u, int v) const {
-    return image_.at(u, v) * (across_[static_cast<std::size_t>(u)] + down_[static_cast<std::size_t>(v)]) + offset_;
-  }
-
- private:
-  const DepthImage& image_;
-  float offset_;
-  std::vector<float> across_;  // the part of height / z that depends on the column
-  std::vector<float> down_;
-};
 
 // Whether a pixel on the rim has a neighbour beyond it at the same depth.
 bool goes_on_at(const DepthImage& image, const std::vector<std::uint8_t>& is_beyond, int u, int v) {
@@ -48,10 +26,12 @@ bool goes_on_at(const DepthImage& image, const std::vector<std::uint8_t>& is_bey
 
 // Whether the surface at a pixel at the foot is seen below the table, too, as a wall's is behind its edge: the first
 // reading below it and some more after that, so that no noise passes for it.
-bool comes_from_below(const DepthImage& image, const Intrinsics& intrinsics, const Heights& heights, int u, int v) {
+bool comes_from_below(const DepthImage& image, const Intrinsics& intrinsics, const PlaneRays& rays, int u, int v) {
   constexpr int kMore = 6;  // rows
   const float z = image.at(u, v);
-  const auto is_below = [&](int y) { return image.at(u, y) > 0.0F && heights.at(u, y) < -plane_tolerance(z); };
+  const auto is_below = [&](int y) {
+    return image.at(u, y) > 0.0F && rays.height(u, y, image.at(u, y)) < -plane_tolerance(z);
+  };
   const int reach = static_cast<int>(std::lround(4.0F * plane_tolerance(z) * static_cast<float>(intrinsics.fy) / z));
   for (int y = v + 1; y <= std::min(v + reach, image.height - 1 - kMore); ++y) {
     if (is_below(y)) {
@@ -66,19 +46,19 @@ bool comes_from_below(const DepthImage& image, const Intrinsics& intrinsics, con
 PixelsOverTable pixels_over_table(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table,
                                   const SegmentSettings& settings, NotObjects& left_out) {
   const TableArea area(image, intrinsics, table);
-  const Heights heights(image, intrinsics, table);
+  const PlaneRays rays(image.width, image.height, intrinsics, table, area.x_axis(), area.y_axis());
   PixelsOverTable over{Labels(image.depth.size(), 0), std::vector<PixelHint>(image.depth.size(), PixelHint{}),
                        area.outline()};
   std::vector<std::uint8_t> is_beyond(image.depth.size(), 0);
   for (int v = 0; v < image.height; ++v) {
     for (int u = 0; u < image.width; ++u) {
       const float z = image.at(u, v);
-      const float height = heights.at(u, v);
+      const float height = rays.height(u, v, z);
       if (!(z > 0.0F) || height < least_height_over_table(z)) {
         continue;
       }
       const std::size_t i = image.index(u, v);
-      const TableArea::Place place = area.place_of(intrinsics.point(u, v, z));
+      const TableArea::Place place = area.place_at(z * rays.at(u, v).head<2>().matrix());
       over.hints[i].on_rim = place == TableArea::Place::rim;
       if (place == TableArea::Place::outside) {
         ++left_out.outside;
@@ -100,7 +80,7 @@ PixelsOverTable pixels_over_table(const DepthImage& image, const Intrinsics& int
       PixelHint& hint = over.hints[i];
       hint.goes_on = hint.on_rim && goes_on_at(image, is_beyond, u, v);
       hint.at_foot = v + 1 < image.height && over.labels[image.index(u, v + 1)] == 0;
-      hint.from_below = hint.at_foot && comes_from_below(image, intrinsics, heights, u, v);
+      hint.from_below = hint.at_foot && comes_from_below(image, intrinsics, rays, u, v);
     }
   }
   return over;

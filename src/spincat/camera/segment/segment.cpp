@@ -19,42 +19,61 @@ constexpr int kGap = 3;  // pixels without a reading that a link may bridge, and
 
 constexpr std::size_t kFewestPixels = 50;  // that an object is told from noise by, however near they are to each other
 
+constexpr float kWide = 0.17F;  // metres, standard deviation: 0.6 m of an even strip
+
 struct Patch {
   Segment segment;
-  float area = 0.0F;       // square metres, as its pixels face the camera
+  float depths = 0.0F;     // sum of their squares
   std::size_t on_rim = 0;  // pixels with each of the hints
   std::size_t goes_on = 0;
   std::size_t at_foot = 0;
   std::size_t from_below = 0;
-
   Eigen::Matrix3f products = Eigen::Matrix3f::Zero();  // sum of p p^T, of points less the patch's first
   Eigen::Vector3f first = Eigen::Vector3f::Zero();
 
-  void add(const Eigen::Vector3f& point, const PixelHint& hint, const Intrinsics& intrinsics) {
-    area += point.z() * point.z() / static_cast<float>(intrinsics.fx * intrinsics.fy);
-    products += (point - first) * (point - first).transpose();
+  void start(int u, int v, const Eigen::Vector3f& point) {
+    segment.left = segment.right = u;
+    segment.top = v;
+    first = point;
+  }
+
+  void add(int u, int v, const Eigen::Vector3f& point, float height, const PixelHint& hint) {
+    ++segment.pixels;
+    segment.left = std::min(segment.left, u);
+    segment.right = std::max(segment.right, u);
+    segment.bottom = v;
+    segment.centre += point;
+    segment.height = std::max(segment.height, height);
+    depths += point.z() * point.z();
+    const Eigen::Vector3f d = point - first;
+    products += d * d.transpose();
     on_rim += hint.on_rim ? 1 : 0;
     goes_on += hint.goes_on ? 1 : 0;
     at_foot += hint.at_foot ? 1 : 0;
     from_below += hint.from_below ? 1 : 0;
   }
 
+  // Square metres, as its pixels face the camera.
+  float area(const Intrinsics& intrinsics) const { return depths / static_cast<float>(intrinsics.fx * intrinsics.fy); }
+
   // What is no thing on the table but a wall behind it: over the rim and cut by it, or seen to come up from below, or
-  // upright, flat and wide and cut by the picture's border.
+  // upright and flat, wide or beside the table, and more than is seen.
   bool is_wall(const SupportPlane& table) const {
-    return (2 * on_rim > segment.pixels && 4 * goes_on * goes_on > segment.pixels) || 5 * from_below > 2 * at_foot ||
-           (segment.cut && is_upright_and_wide(table));
+    const bool is_on_rim = 2 * on_rim > segment.pixels;
+    const bool is_beside = 10 * on_rim > 9 * segment.pixels;
+    const bool is_cut_by_area = 4 * goes_on * goes_on > segment.pixels;
+    return (is_on_rim && is_cut_by_area) || 5 * from_below > 2 * at_foot ||
+           ((segment.cut || is_cut_by_area) && is_flat_and_upright(table, is_beside ? 0.0F : kWide));
   }
 
-  // Precondition: the segment's centre is that of its points.
-  bool is_upright_and_wide(const SupportPlane& table) const {
-    constexpr float kWide = 0.17F;     // metres, standard deviation: 0.6 m of an even strip
+  // At least so wide, as a standard deviation in metres. Precondition: the segment's centre is that of its points.
+  bool is_flat_and_upright(const SupportPlane& table, float width) const {
     constexpr float kUpright = 0.17F;  // cosine of the angle to the table's normal
     const Eigen::Vector3f mean = segment.centre - first;
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
     solver.computeDirect(products / static_cast<float>(segment.pixels) - mean * mean.transpose());
     const Eigen::Vector3f deviations = solver.eigenvalues().cwiseMax(0.0F).cwiseSqrt();
-    return deviations[2] > kWide && deviations[0] < plane_tolerance(segment.centre.z()) &&
+    return deviations[2] > width && deviations[0] < plane_tolerance(segment.centre.z()) &&
            std::abs(solver.eigenvectors().col(0).dot(table.normal)) < kUpright;
   }
 };
@@ -64,28 +83,26 @@ std::unordered_map<std::uint32_t, Patch> measured(const DepthImage& image, const
                                                   const SupportPlane& table, const Labels& patches,
                                                   const PixelsOverTable& over, std::vector<std::uint32_t>& order) {
   std::unordered_map<std::uint32_t, Patch> found;
+  std::uint32_t last_label = 0;
+  Patch* last = nullptr;  // neighbours are mostly of one patch
   for (int v = 0; v < image.height; ++v) {
     for (int u = 0; u < image.width; ++u) {
-      const std::uint32_t label = patches[image.index(u, v)];
+      const std::size_t i = image.index(u, v);
+      const std::uint32_t label = patches[i];
       if (label == 0) {
         continue;
       }
-      const Eigen::Vector3f p = intrinsics.point(u, v, image.at(u, v));
-      const auto [it, is_new] = found.try_emplace(label);
-      Segment& segment = it->second.segment;
-      if (is_new) {
-        order.push_back(label);
-        segment.left = segment.right = u;
-        segment.top = v;
-        it->second.first = p;
+      const Eigen::Vector3f p = intrinsics.point(u, v, image.depth[i]);
+      if (label != last_label) {
+        const auto [it, is_new] = found.try_emplace(label);
+        last_label = label;
+        last = &it->second;
+        if (is_new) {
+          order.push_back(label);
+          last->start(u, v, p);
+        }
       }
-      it->second.add(p, over.hints[image.index(u, v)], intrinsics);
-      ++segment.pixels;
-      segment.left = std::min(segment.left, u);
-      segment.right = std::max(segment.right, u);
-      segment.bottom = v;
-      segment.centre += p;
-      segment.height = std::max(segment.height, table.height(p));
+      last->add(u, v, p, table.height(p), over.hints[i]);
     }
   }
   return found;
@@ -104,6 +121,9 @@ void add_boxes(const DepthImage& image, const Intrinsics& intrinsics, const Supp
   constexpr float kPixels = 2.5F;       // that a square of the footprint is wide at least
   constexpr float kLeastCell = 0.004F;  // metres
   std::vector<std::vector<Eigen::Vector3f>> points(result.objects.size());
+  for (const Segment& object : result.objects) {
+    points[object.id - 1U].reserve(object.pixels);
+  }
   for (int v = 0; v < image.height; ++v) {
     for (int u = 0; u < image.width; ++u) {
       if (const std::uint16_t id = result.ids[image.index(u, v)]; id != 0) {
@@ -142,7 +162,7 @@ Segmentation segment(const DepthImage& image, const Intrinsics& intrinsics, cons
     segment.centre /= static_cast<float>(segment.pixels);
     segment.cut =
         segment.left == 0 || segment.top == 0 || segment.right == image.width - 1 || segment.bottom == image.height - 1;
-    if (segment.pixels < kFewestPixels || found[label].area < settings.least_area) {
+    if (segment.pixels < kFewestPixels || found[label].area(intrinsics) < settings.least_area) {
       result.left_out.too_few += segment.pixels;
     } else if (segment.height < settings.least_height) {
       result.left_out.too_low += segment.pixels;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "spincat/camera/segment/hull.h"
 #include "spincat/camera/segment/scene.h"
 #include "spincat/camera/source/frame_source.h"
 
@@ -33,6 +34,10 @@ class TableArea {
   enum class Place : std::uint8_t { outside, rim, inside };
   // Where the point lies above (or below) the plane.
   Place place_of(const Eigen::Vector3f& point) const;
+  // The same for a place along the plane, by axes of its own.
+  Place place_at(const Eigen::Vector2f& place) const;
+  const Eigen::Vector3f& x_axis() const { return x_axis_; }
+  const Eigen::Vector3f& y_axis() const { return y_axis_; }
   bool empty() const { return cells_.empty(); }
   // The corners of what is seen, without the rim, on the plane and in the camera's frame.
   const std::vector<Eigen::Vector3f>& outline() const { return outline_; }
@@ -42,14 +47,14 @@ class TableArea {
     int x;
     int y;
   };
-  Cell cell_of(const Eigen::Vector3f& point) const;
+  Cell cell_of(const Eigen::Vector2f& place) const;
   class Evidence;
   Eigen::Vector3f point_of(int x, int y, const SupportPlane& table) const;
   int rim_cells() const;
+  void mark(const std::vector<GridPoint>& hull, Place place);
   std::vector<std::uint8_t> filled_cells(const DepthImage& image, const Intrinsics& intrinsics, float camera_height,
                                          const Evidence& evidence);
-  std::vector<std::uint8_t> possible_cells(const DepthImage& image, const Intrinsics& intrinsics,
-                                           const Evidence& evidence) const;
+  std::vector<std::uint8_t> possible_cells(const DepthImage& image, const Evidence& evidence) const;
 
   Eigen::Vector3f x_axis_;
   Eigen::Vector3f y_axis_;

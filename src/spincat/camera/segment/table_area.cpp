@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
 #include "spincat/camera/segment/hull.h"
+#include "spincat/camera/segment/plane_rays.h"
 #include "spincat/camera/segment/table.h"
 
 namespace spincat {
@@ -94,93 +96,116 @@ std::vector<GridPoint> largest_component(const std::vector<GridPoint>& table, Gr
   return largest;
 }
 
+// The first and the last of each row: the others are no corners of the hull.
+std::vector<GridPoint> outermost(const std::vector<GridPoint>& cells) {
+  std::map<int, std::pair<int, int>> rows;
+  for (const GridPoint& c : cells) {
+    const auto [row, is_new] = rows.try_emplace(c.y, c.x, c.x);
+    row->second = {std::min(row->second.first, c.x), std::max(row->second.second, c.x)};
+  }
+  std::vector<GridPoint> result;
+  for (const auto& [y, ends] : rows) {
+    result.push_back({ends.first, y});
+    result.push_back({ends.second, y});
+  }
+  return result;
+}
+
 }  // namespace
 
 // What the readings say of the plane.
 class TableArea::Evidence {
  public:
-  Evidence(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table)
-      : image_(image), intrinsics_(intrinsics), table_(table) {}
+  Evidence(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table,
+           const Eigen::Vector3f& x_axis, const Eigen::Vector3f& y_axis)
+      : image_(image),
+        focal_(static_cast<float>(intrinsics.fx)),
+        offset_(table.offset),
+        rays_(image.width, image.height, intrinsics, table, x_axis, y_axis) {}
+
+  // Where a reading lies along the plane.
+  Eigen::Vector2f place(int u, int v) const { return image_.at(u, v) * rays_.at(u, v).head<2>().matrix(); }
 
   // Whether the reading is one of the table: on the plane, and its surface goes on along it to one side, in rows and in
   // columns. A wall that passes through the plane goes on along one of them alone.
   bool is_of_table(int u, int v) const {
-    const float z = image_.at(u, v);
     if (!lies_on(u, v)) {
       return false;
     }
     // So far that on a wall the plane would be left.
-    const int step = std::max(static_cast<int>(std::lround(2.0F * plane_tolerance(z) * intrinsics_.fx / z)), kStride);
+    const float z = image_.at(u, v);
+    const int step = std::max(static_cast<int>(std::lround(2.0F * plane_tolerance(z) * focal_ / z)), kStride);
     return (lies_on(u - step, v) || lies_on(u + step, v)) && (lies_on(u, v - step) || lies_on(u, v + step));
   }
 
-  // Where a pixel's ray meets the plane, and whether the table may be there: not where it goes on far beyond.
-  struct Crossing {
-    Eigen::Vector3f point;
-    bool may_be_table;
-  };
-  std::optional<Crossing> crossing(int u, int v) const {
-    const Eigen::Vector3f ray = intrinsics_.point(u, v, 1.0F);
-    const float towards = -table_.normal.dot(ray);
-    if (towards < kGrazing) {
-      return {};
-    }
-    const float z = image_.at(u, v);
-    const Eigen::Vector3f point = table_.offset / towards * ray;
-    return Crossing{point, !(z > 0.0F && table_.height(z * ray) < -plane_tolerance(z))};
+  // Where a pixel's ray meets the plane, if it does.
+  std::optional<Eigen::Vector2f> crossing(int u, int v) const {
+    constexpr float kGrazing = 0.02F;
+    const Eigen::Array3f ray = rays_.at(u, v);
+    return ray[2] > -kGrazing ? std::nullopt : std::optional<Eigen::Vector2f>(-offset_ / ray[2] * ray.head<2>());
   }
 
-  // Whether the reading is of something that comes up from below, as a wall does, but not of the floor.
-  bool is_just_below(int u, int v) const {
+  // Whether the reading lies below the plane: the ray met no table on its way.
+  bool is_below(int u, int v) const {
     const float z = image_.at(u, v);
-    const float height = table_.height(intrinsics_.point(u, v, z));
-    return z > 0.0F && height < -plane_tolerance(z) && height > -kJustBelow;
+    return z > 0.0F && rays_.height(u, v, z) < -plane_tolerance(z);
   }
+
+  // Whether a reading below the plane is of something that comes up from there, as a wall does, but not of the floor.
+  bool is_just_below(int u, int v) const { return rays_.height(u, v, image_.at(u, v)) > -kJustBelow; }
 
  private:
-  static constexpr float kGrazing = 0.02F;
-
   bool lies_on(int u, int v) const {
     if (u < 0 || v < 0 || u >= image_.width || v >= image_.height) {
       return false;
     }
     const float z = image_.at(u, v);
-    return z > 0.0F && std::abs(table_.height(intrinsics_.point(u, v, z))) < plane_tolerance(z);
+    return z > 0.0F && std::abs(rays_.height(u, v, z)) < plane_tolerance(z);
   }
 
   const DepthImage& image_;
-  const Intrinsics& intrinsics_;
-  const SupportPlane& table_;
+  float focal_;
+  float offset_;
+  PlaneRays rays_;
 };
 
 TableArea::TableArea(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table)
     : x_axis_(table.normal.unitOrthogonal()), y_axis_(table.normal.cross(x_axis_)) {
-  const Evidence evidence(image, intrinsics, table);
+  const Evidence evidence(image, intrinsics, table, x_axis_, y_axis_);
   std::vector<std::uint8_t> filled = filled_cells(image, intrinsics, table.offset, evidence);
-  std::vector<std::uint8_t> possible = possible_cells(image, intrinsics, evidence);
+  std::vector<std::uint8_t> possible = possible_cells(image, evidence);
   const std::vector<GridPoint> seen =
       largest_component(dense_cells({columns_, rows_, filled}), {columns_, rows_, possible});
   if (seen.empty()) {
     return;
   }
+  const std::vector<GridPoint> hull = convex_hull(outermost(seen));
   std::vector<GridPoint> grown;
   const int rim = rim_cells();
-  for (const GridPoint& c : seen) {
+  for (const GridPoint& c : hull) {
+    outline_.push_back(point_of(c.x, c.y, table));
     for (const auto& [dx, dy] : {std::array{-rim, -rim}, {-rim, rim}, {rim, -rim}, {rim, rim}}) {
       grown.push_back({c.x + dx, c.y + dy});
     }
   }
-  const std::vector<GridPoint> hull = convex_hull(seen);
-  const std::vector<GridPoint> wider = convex_hull(std::move(grown));
-  for (const GridPoint& corner : hull) {
-    outline_.push_back(point_of(corner.x, corner.y, table));
-  }
   cells_.assign(filled.size(), Place::outside);
+  mark(convex_hull(std::move(grown)), Place::rim);
+  mark(hull, Place::inside);
+}
+
+// Convex: in each row the cells from the first to the last.
+void TableArea::mark(const std::vector<GridPoint>& hull, Place place) {
   for (int y = 0; y < rows_; ++y) {
-    for (int x = 0; x < columns_; ++x) {
-      cells_[index_of(x, y, columns_)] = is_inside(hull, {x, y})    ? Place::inside
-                                         : is_inside(wider, {x, y}) ? Place::rim
-                                                                    : Place::outside;
+    int first = 0;
+    while (first < columns_ && !is_inside(hull, {first, y})) {
+      ++first;
+    }
+    int last = columns_ - 1;
+    while (last > first && !is_inside(hull, {last, y})) {
+      --last;
+    }
+    for (int x = first; x <= last; ++x) {
+      cells_[index_of(x, y, columns_)] = place;
     }
   }
 }
@@ -203,9 +228,8 @@ std::vector<std::uint8_t> TableArea::filled_cells(const DepthImage& image, const
   for (int v = 0; v < image.height; v += kStride) {
     for (int u = 0; u < image.width; u += kStride) {
       if (evidence.is_of_table(u, v)) {
-        const Eigen::Vector3f p = intrinsics.point(u, v, image.at(u, v));
-        on_table.emplace_back(x_axis_.dot(p), y_axis_.dot(p));
-        depths.push_back(p.z());
+        on_table.push_back(evidence.place(u, v));
+        depths.push_back(image.at(u, v));
       }
     }
   }
@@ -239,22 +263,22 @@ std::vector<std::uint8_t> TableArea::filled_cells(const DepthImage& image, const
 }
 
 // The cells where more rays say that the table may be there than say that it is not: it may be hidden.
-std::vector<std::uint8_t> TableArea::possible_cells(const DepthImage& image, const Intrinsics& intrinsics,
-                                                    const Evidence& evidence) const {
+std::vector<std::uint8_t> TableArea::possible_cells(const DepthImage& image, const Evidence& evidence) const {
   std::vector<int> votes(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
-  const auto vote = [&](const Eigen::Vector3f& point, int weight) {
-    const Cell cell = cell_of(point);
+  const auto vote = [&](const Eigen::Vector2f& place, int weight) {
+    const Cell cell = cell_of(place);
     if (cell.x >= 0 && cell.y >= 0 && cell.x < columns_ && cell.y < rows_) {
       votes[index_of(cell.x, cell.y, columns_)] += weight;
     }
   };
   for (int v = 0; v < image.height; v += kStride) {
     for (int u = 0; u < image.width; u += kStride) {
+      const bool is_below = evidence.is_below(u, v);
       if (const auto crossing = evidence.crossing(u, v)) {
-        vote(crossing->point, crossing->may_be_table ? 1 : -1);
+        vote(*crossing, is_below ? -1 : 1);
       }
-      if (evidence.is_just_below(u, v)) {
-        vote(intrinsics.point(u, v, image.at(u, v)), -1);
+      if (is_below && evidence.is_just_below(u, v)) {
+        vote(evidence.place(u, v), -1);
       }
     }
   }
@@ -263,14 +287,21 @@ std::vector<std::uint8_t> TableArea::possible_cells(const DepthImage& image, con
   return possible;
 }
 
-TableArea::Cell TableArea::cell_of(const Eigen::Vector3f& point) const {
-  return {static_cast<int>(std::floor((x_axis_.dot(point) - low_.x()) / cell_)),
-          static_cast<int>(std::floor((y_axis_.dot(point) - low_.y()) / cell_))};
+TableArea::Cell TableArea::cell_of(const Eigen::Vector2f& place) const {
+  return {static_cast<int>(std::floor((place.x() - low_.x()) / cell_)),
+          static_cast<int>(std::floor((place.y() - low_.y()) / cell_))};
 }
 
 TableArea::Place TableArea::place_of(const Eigen::Vector3f& point) const {
-  const Cell cell = cell_of(point);
-  const bool is_in_grid = !cells_.empty() && cell.x >= 0 && cell.y >= 0 && cell.x < columns_ && cell.y < rows_;
+  return place_at({x_axis_.dot(point), y_axis_.dot(point)});
+}
+
+TableArea::Place TableArea::place_at(const Eigen::Vector2f& place) const {
+  if (cells_.empty()) {
+    return Place::outside;
+  }
+  const Cell cell = cell_of(place);
+  const bool is_in_grid = cell.x >= 0 && cell.y >= 0 && cell.x < columns_ && cell.y < rows_;
   return is_in_grid ? cells_[index_of(cell.x, cell.y, columns_)] : Place::outside;
 }
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -163,6 +164,21 @@ TEST(Recogniser, SaysWhyThereIsNothing) {
   EXPECT_EQ(looked(times(box_and_cone().picture(), 0.001F)).status, FrameStatus::wrong_units);
   // And goes on.
   EXPECT_EQ(looked(noisy(box_and_cone(), 1)).objects.size(), 2U);
+}
+
+TEST(Recogniser, PassesOverDepthsThatAreNone) {
+  const DepthImage sound = noisy(box_and_cone(), 1);
+  DepthImage spoilt = sound;
+  DepthImage without = sound;
+  const float kNone[] = {1e-30F, 1e-6F, -1.0F, 1e30F, std::numeric_limits<float>::quiet_NaN()};
+  for (std::size_t i = 0; i < spoilt.depth.size(); i += 97) {
+    spoilt.depth[i] = kNone[i % 5];
+    without.depth[i] = 0.0F;
+  }
+  const SeenFrame a = Recogniser(views_model(), {}, 1).look(spoilt, {});
+  const SeenFrame b = Recogniser(views_model(), {}, 1).look(without, {});
+  EXPECT_EQ(a.segmentation.ids, b.segmentation.ids);
+  EXPECT_EQ(a.objects.size(), 2U);
 }
 
 TEST(Recogniser, SaysWhatIsTooSmall) {

@@ -28,10 +28,11 @@ constexpr float kFurthestTable = 3.5F;  // on which such a camera tells objects 
 constexpr int kStride = 4;                 // every fourth pixel both ways is looked at
 constexpr std::size_t kFewReadings = 300;  // of these
 
-constexpr float kMostDepth = 1e6F;  // metres: what is more, or no number, is no reading
+constexpr float kLeastDepth = 1e-3F;  // metres: what is less, more than the most, or no number, is no reading
+constexpr float kMostDepth = 1e6F;
 
 bool is_sound(float depth) {
-  return depth >= 0.0F && depth <= kMostDepth;
+  return depth == 0.0F || (depth >= kLeastDepth && depth <= kMostDepth);
 }
 
 struct Readings {

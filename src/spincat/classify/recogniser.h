@@ -78,7 +78,7 @@ class Recogniser {
   ~Recogniser();
 
   // Objects of a frame are named on several threads. Memory does not grow with the number of frames. Depths that are
-  // negative, no numbers or more than a million metres count as not read.
+  // negative, no numbers, less than a millimetre or more than a million metres count as not read.
   SeenFrame look(const DepthImage& image, const Intrinsics& intrinsics);
 
  private:

@@ -32,7 +32,7 @@ bool comes_from_below(const DepthImage& image, const Intrinsics& intrinsics, con
   const auto is_below = [&](int y) {
     return image.at(u, y) > 0.0F && rays.height(u, y, image.at(u, y)) < -plane_tolerance(z);
   };
-  const int reach = static_cast<int>(std::lround(4.0F * plane_tolerance(z) * static_cast<float>(intrinsics.fy) / z));
+  const int reach = pixels_of(4.0F * plane_tolerance(z), z, intrinsics.fy, 1);
   for (int y = v + 1; y <= std::min(v + reach, image.height - 1 - kMore); ++y) {
     if (is_below(y)) {
       return std::abs(image.at(u, y) - z) < 2.0F * link_tolerance(z) && is_below(y + kMore / 2) && is_below(y + kMore);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -18,9 +20,17 @@ inline float plane_tolerance(float z) {
   return 0.004F + 0.005F * z * z;
 }
 
-// The plane with most readings on it, each weighted by 1 / z^2: the best of random triples (RANSAC, Fischler and Bolles
-// 1981), refined by least squares. `before`, the table of the frame before, is kept where hardly another is better. No
-// table where there are too few readings, or none of the planes holds least_share of them. Deterministic.
+// Pixels at depth z that a length in metres takes up in the picture, at least `least` and at most 1,000.
+inline int pixels_of(float length, float z, double focal_length, int least) {
+  return static_cast<int>(
+      std::lround(std::clamp(length * static_cast<float>(focal_length) / z, static_cast<float>(least), 1000.0F)));
+}
+
+// The plane with most readings on it, each weighted by 1 / z^2: the best of random triples, any and close ones (RANSAC,
+// Fischler and Bolles 1981), each better one refined by least squares (Chum, Matas and Kittler 2003); then, as
+// `settings.scene` has it, a plane along it that is higher or lower. `before`, the table of the frame before, is kept
+// where hardly another is better. No table where there are too few readings, or none of the planes holds least_share of
+// them. Deterministic.
 std::optional<SupportPlane> find_table(const DepthImage& image, const Intrinsics& intrinsics,
                                        const TableSettings& settings, const std::optional<SupportPlane>& before = {});
 

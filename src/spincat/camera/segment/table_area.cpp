@@ -119,7 +119,7 @@ class TableArea::Evidence {
   Evidence(const DepthImage& image, const Intrinsics& intrinsics, const SupportPlane& table,
            const Eigen::Vector3f& x_axis, const Eigen::Vector3f& y_axis)
       : image_(image),
-        focal_(static_cast<float>(intrinsics.fx)),
+        focal_(intrinsics.fx),
         offset_(table.offset),
         rays_(image.width, image.height, intrinsics, table, x_axis, y_axis) {}
 
@@ -134,7 +134,7 @@ class TableArea::Evidence {
     }
     // So far that on a wall the plane would be left.
     const float z = image_.at(u, v);
-    const int step = std::max(static_cast<int>(std::lround(2.0F * plane_tolerance(z) * focal_ / z)), kStride);
+    const int step = pixels_of(2.0F * plane_tolerance(z), z, focal_, kStride);
     return (lies_on(u - step, v) || lies_on(u + step, v)) && (lies_on(u, v - step) || lies_on(u, v + step));
   }
 
@@ -164,7 +164,7 @@ class TableArea::Evidence {
   }
 
   const DepthImage& image_;
-  float focal_;
+  double focal_;
   float offset_;
   PlaneRays rays_;
 };

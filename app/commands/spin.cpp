@@ -304,8 +304,7 @@ void add_files(CLI::App& command, SpinArguments& arguments) {
   add("--index-output", arguments.index_output, "A .npy file for which points of the file they are (0: the first)");
   add("--keypoints", arguments.keypoints,
       "A .npy file of the points to make images of: indices of the file's points, or points of your own, K x 6, with "
-      "the "
-      "axes of their images");
+      "the axes of their images");
   add("--normals", arguments.normals, "A .npy file of normals, N x 3, one for each point (or vertex) of the file");
   command
       .add_option("--radius", arguments.radius,

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "figures.h"
+#include "spincat/background/pieces.h"
 #include "spincat/camera/render/sensor_noise.h"
 #include "spincat/camera/render/table_scene.h"
 #include "spincat/camera/segment/segment.h"
@@ -182,32 +183,11 @@ int missed_tables(const LabelledFrame& frame) {
 }
 
 Mesh block(double half_x, double half_y, double height) {
-  Mesh mesh;
-  for (int i = 0; i < 8; ++i) {
-    mesh.vertices.emplace_back((i & 1) != 0 ? half_x : -half_x, (i & 2) != 0 ? half_y : -half_y,
-                               (i & 4) != 0 ? height : 0.0);
-  }
-  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  return mesh;
+  return background::box({0.0, 0.0, 0.5 * height}, {2.0 * half_x, 2.0 * half_y, height});
 }
 
 Mesh tin(double radius, double height) {
-  constexpr std::uint32_t kSides = 24;
-  Mesh mesh;
-  for (std::uint32_t k = 0; k < kSides; ++k) {
-    const double angle = 2.0 * std::numbers::pi * k / kSides;
-    mesh.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.0);
-    mesh.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), height);
-  }
-  mesh.vertices.emplace_back(0.0, 0.0, height);
-  for (std::uint32_t k = 0; k < kSides; ++k) {
-    const std::uint32_t next = (k + 1) % kSides;
-    mesh.triangles.push_back({2 * k, 2 * next, 2 * k + 1});
-    mesh.triangles.push_back({2 * k + 1, 2 * next, 2 * next + 1});
-    mesh.triangles.push_back({2 * k + 1, 2 * next + 1, 2 * kSides});
-  }
-  return mesh;
+  return background::lathe({{0.0, 0.0}, {radius, 0.0}, {radius, height}, {0.0, height}});
 }
 
 // Up to six blocks and tins, 4 to 24 cm wide and 2 to 30 cm high, 2 cm apart at least, on a table of .6 to 1.8 m before
@@ -221,28 +201,25 @@ TableScene random_room(Random& random) {
     const double y = random.uniform(0.02, 0.12);
     const double height = random.uniform(0.02, 0.3);
     const bool is_tin = random.uniform() < 0.5;
-    const double turn = random.uniform(0.0, std::numbers::pi);
+    const double turn = random.uniform(0.0, 0.5);  // of a whole one
     const double radius = is_tin ? x : std::hypot(x, y);
     const double reach = scene.half_width - 0.1;
     for (int trial = 0; trial < 50; ++trial) {
-      const Eigen::Vector3d place(random.uniform(-reach, reach), random.uniform(-reach, reach), radius);
+      const double at_x = random.uniform(-reach, reach);
+      const double at_y = random.uniform(-reach, reach);
       const bool is_free = std::ranges::all_of(taken, [&](const Eigen::Vector3d& other) {
-        return (place - other).head<2>().norm() > radius + other.z() + 0.02;
+        return std::hypot(at_x - other.x(), at_y - other.y()) > radius + other.z() + 0.02;
       });
-      if (!is_free) {
-        continue;
+      if (is_free) {
+        const Mesh thing = background::turned(is_tin ? tin(x, height) : block(x, y, height), turn, Vec3::UnitZ());
+        scene.things.push_back(background::moved(thing, Vec3(at_x, at_y, 0.0)));
+        taken.emplace_back(at_x, at_y, radius);
+        break;
       }
-      Mesh thing = is_tin ? tin(x, height) : block(x, y, height);
-      for (Vec3& v : thing.vertices) {
-        v = Vec3(std::cos(turn) * v.x() - std::sin(turn) * v.y() + place.x(),
-                 std::sin(turn) * v.x() + std::cos(turn) * v.y() + place.y(), v.z());
-      }
-      scene.things.push_back(std::move(thing));
-      taken.push_back(place);
-      break;
     }
   }
-  scene.room = room_around(random.uniform(0.4, 0.8), scene.half_width + random.uniform(0.02, 1.5));
+  const double floor_below = random.uniform(0.4, 0.8);
+  scene.room = room_around(floor_below, scene.half_width + random.uniform(0.02, 1.5));
   return scene;
 }
 
@@ -277,9 +254,10 @@ Json room_figures(int count, std::uint64_t seed) {
     for (int k = 0; k < count; ++k) {
       Random random(derive_seed(seed, static_cast<std::uint64_t>(k)));
       const TableScene scene = random_room(random);
-      const Viewpoint viewpoint =
-          camera_around(random.uniform(0.8, 1.6), random.uniform(20.0, 65.0), random.uniform(-40.0, 40.0));
-      SceneView view = view_of(scene, viewpoint, Intrinsics{}, 640, 480);
+      const double distance = random.uniform(0.8, 1.6);
+      const double elevation = random.uniform(20.0, 65.0);
+      const double azimuth = random.uniform(-40.0, 40.0);
+      SceneView view = view_of(scene, camera_around(distance, elevation, azimuth), Intrinsics{}, 640, 480);
       add_sensor_noise(Intrinsics{}, random.uniform(0.5, 1.5), random, view.image);
       const Segmentation found = objects_in(view.image, Intrinsics{}, split, tally);
       tally.add(overlaps_of(view.image, view.things, 1, found.ids));
